@@ -110,7 +110,7 @@ fn exported_meshes_float_as_their_hulls() {
         for path in files(&folder, &hull, name, &MESHES) {
             let body = read_hydrostatic_body(&path).unwrap();
             assert!((body.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
-            let found = body.curves_of_form(&draughts, &Conventions::default()).rows;
+            let found = body.curves_of_form(&draughts, &Conventions::default()).unwrap().0.rows;
             for (a, b) in found.iter().zip(&exact) {
                 for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
                     assert!(
@@ -133,7 +133,12 @@ fn exported_surfaces_float_as_their_hulls_to_a_millionth() {
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         let folder = folder(&format!("surfaces-{name}"));
         for path in files(&folder, &hull, name, &[ExportFormat::Step, ExportFormat::Iges]) {
-            let found = read_hydrostatic_body(&path).unwrap().curves_of_form(&draughts, &Conventions::default()).rows;
+            let found = read_hydrostatic_body(&path)
+                .unwrap()
+                .curves_of_form(&draughts, &Conventions::default())
+                .unwrap()
+                .0
+                .rows;
             for (a, b) in found.iter().zip(&exact) {
                 for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
                     // A single line is not averaged over the triangles as a volume is.
@@ -384,7 +389,7 @@ fn control_nets_float_as_their_hulls_and_come_back_as_they_are() {
         let path = files(&folder, &hull, name, &[ExportFormat::Ftm]).remove(0);
         let body = read_hydrostatic_body(&path).unwrap();
         assert!((body.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
-        for (a, b) in body.curves_of_form(&draughts, &Conventions::default()).rows.iter().zip(&exact) {
+        for (a, b) in body.curves_of_form(&draughts, &Conventions::default()).unwrap().0.rows.iter().zip(&exact) {
             for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
                 assert!((x / y - 1.0).abs() < 4e-3, "{name} at {}: quantity {k} is {x} for {y}", a.draught);
             }

@@ -330,8 +330,9 @@ fn tolerances_below_the_swings_of_the_start_harm_nothing() {
     let out = folder.join("out");
     let (table, to) = (carried(TABLE).display().to_string(), out.display().to_string());
     let output = program(&["fair", &table, "--tolerance", "0.5 mm", "-o", &to, "--no-figures"]);
-    // No fairer, and it says so.
-    assert!(output.status.code() == Some(5) && stderr(&output).contains("E503"), "{}", stderr(&output));
+    // Its lines have the least changes of sign that such a tolerance leaves, before and after.
+    let page = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success() && page.starts_with("Fair as before"), "{page}{}", stderr(&output));
     let certificate = json(read_text(out.join("fairing.json")));
     for kind in ["stations", "waterlines", "buttocks", "diagonals"] {
         for line in certificate["inflections"][kind].as_array().unwrap() {

@@ -8,6 +8,7 @@ mod analytic_bodies;
 mod analytic_round_bodies;
 mod architecture;
 mod bodies;
+mod body_cases;
 mod charts;
 mod cli;
 mod cli_refusals;

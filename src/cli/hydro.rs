@@ -123,7 +123,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(Lengths(list)) => list.clone(),
         None => source.default_draughts()?,
     };
-    let table = source.curves_of_form(&draughts, &conventions(arguments, source.conventions));
+    let (table, warnings) = source.curves_of_form(&draughts, &conventions(arguments, source.conventions))?;
+    warnings.iter().for_each(|warning| stream::message(warning));
     let text = if arguments.json {
         stream::json(&hydrostatics_json(source.hull(), &table).map_err(|e| Failure::Internal(e.to_string()))?)?
     } else if arguments.csv {

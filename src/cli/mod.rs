@@ -34,8 +34,8 @@ Tables of offsets, recognised by content: CSV and TSV (matrix of stations and wa
 XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
 DELFTship, input of Michlet, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
 say what it leaves open (units, axes, Lpp, B, T).
-Bodies: meshes as STL (binary, ASCII), OBJ and GLB, panels as GDF, NEMOH (.mar) and PNL, closed or without deck, transom and flat bow; the B-spline surfaces of IGES and STEP \
-files, without what trims them; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, x_origin \
+Bodies: meshes as STL (binary, ASCII), OBJ and GLB, panels as GDF, NEMOH (.mar, .dat) and PNL, closed or without deck, transom and flat bow; the B-spline surfaces of IGES and STEP \
+files, without what trims them; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, body (\"half\" or \"whole\"), x_origin \
 and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 
 /// Generates, fits and fairs ship hulls, and computes their hydrostatics and drawings.
@@ -105,12 +105,15 @@ struct BodyFlags {
     /// Axes of a mesh or a CAD file that point forward, to port and up, as "x -z y"
     #[arg(long, value_name = "AXES", allow_hyphen_values = true)]
     axes: Option<String>,
+    /// Whether a mesh or a CAD file has one side of the hull (half) or all of it (whole)
+    #[arg(long, value_name = "PART", value_parser = ["half", "whole"])]
+    body: Option<String>,
 }
 
 impl BodyFlags {
     fn overrides(&self) -> Overrides {
         let unit = self.input_unit.map(|unit| unit.as_str().to_owned());
-        let keys = [("units", unit), ("up", self.up.clone()), ("axes", self.axes.clone())];
+        let keys = [("units", unit), ("up", self.up.clone()), ("axes", self.axes.clone()), ("body", self.body.clone())];
         Overrides { keys: keys.into_iter().filter_map(|(key, value)| Some((key, value?))).collect(), file: None }
     }
 }

@@ -15,6 +15,26 @@ use std::collections::HashMap;
 /// Corners of half a body nearer to the centreplane than this part of its largest extent are on it.
 const CENTREPLANE: f64 = 1e-6;
 
+/// The inner edge of one side of a body is this near to the centreplane, over the half-breadth.
+const NEAR: f64 = 0.02;
+
+/// A part of the side's area from which triangles on the centreplane are a wall that closes it.
+const WALL: f64 = 0.1;
+
+/// What of a body a mesh is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BodyPart {
+    /// Both sides of the centreplane, or a body beside it.
+    Whole,
+    /// One side, whose inner edge is at this |y| \[m\]; less than 0 where it reaches over the centreplane.
+    Half {
+        /// |y| of the inner edge \[m\].
+        inner: f64,
+    },
+    /// One side with a wall on the centreplane: half a body that is closed there, or a whole one that begins there.
+    BesideWall,
+}
+
 /// A mesh of triangles, normals outward (right-hand rule).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TriangleMesh {
@@ -141,20 +161,33 @@ impl TriangleMesh {
         (self, turned)
     }
 
-    /// Whether all of the body is on one side of the centreplane, and reaches it.
+    /// What of a body this is, by where it lies beside the centreplane y = 0.
     #[must_use]
-    pub fn is_half(&self) -> bool {
-        let Some([least, greatest]) = self.bounds() else { return false };
-        let size = (0..3).map(|k| greatest[k] - least[k]).fold(0.0, f64::max);
-        let slack = CENTREPLANE * size;
-        (least[1].abs() <= slack) != (greatest[1].abs() <= slack)
+    pub fn part(&self) -> BodyPart {
+        let Some([least, greatest]) = self.bounds() else { return BodyPart::Whole };
+        let [inner, outer] =
+            if least[1] + greatest[1] >= 0.0 { [least[1], greatest[1]] } else { [-greatest[1], -least[1]] };
+        if outer <= 0.0 || inner.abs() > NEAR * outer {
+            return BodyPart::Whole;
+        }
+        let side = if least[1] + greatest[1] >= 0.0 { 1.0 } else { -1.0 };
+        let near = |point: &[f64; 3]| (side * point[1] - inner).abs() <= NEAR * outer;
+        // Areas as seen from the side, of what stands on the centreplane and of the rest.
+        let (mut wall, mut skin) = (0.0, 0.0);
+        for corners in self.corners() {
+            let [a, b, c] = corners;
+            let area = 0.5 * cross(minus(b, a), minus(c, a))[1].abs();
+            if corners.iter().all(near) { wall += area } else { skin += area }
+        }
+        if wall > WALL * skin { BodyPart::BesideWall } else { BodyPart::Half { inner } }
     }
 
-    /// The whole of a body of which one side is given: triangles on the centreplane are left out, the others mirrored.
+    /// The whole of a body of which one side is given: corners within `slack` \[m\] of the centreplane are put on it,
+    /// triangles there are left out, the others mirrored.
     #[must_use]
-    pub fn mirrored(&self) -> Self {
+    pub fn mirrored(&self, slack: f64) -> Self {
         let Some([least, greatest]) = self.bounds() else { return self.clone() };
-        let slack = CENTREPLANE * (0..3).map(|k| greatest[k] - least[k]).fold(0.0, f64::max);
+        let slack = slack.max(CENTREPLANE * (0..3).map(|k| greatest[k] - least[k]).fold(0.0, f64::max));
         let flat = |[x, y, z]: [f64; 3]| if y.abs() <= slack { [x, 0.0, z] } else { [x, y, z] };
         let half: Vec<[[f64; 3]; 3]> =
             self.corners().map(|t| t.map(flat)).filter(|t| t.iter().any(|point| point[1].abs() > 0.0)).collect();

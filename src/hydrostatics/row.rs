@@ -103,3 +103,60 @@ pub struct Hydrostatics {
     /// Remark on the row (draught above the deck at side, below the keel); none for an ordinary row.
     pub remark: Option<String>,
 }
+
+/// Relative error of a quantity beyond which it is none of rounding.
+const ROUNDING: f64 = 1e-6;
+
+impl Hydrostatics {
+    /// What no body within the box from `least` to `greatest` (x, y, z) \[m\] has at this draught, in words: a volume or an
+    /// area of the waterplane below 0 or above that of its box, a section above its rectangle, a centre of buoyancy beside
+    /// the immersed part. Skin that is counted twice, or walls inside it, show so.
+    #[must_use]
+    pub fn impossible(&self, [least, greatest]: [[f64; 3]; 2]) -> Vec<String> {
+        let [length, breadth] = [greatest[0] - least[0], greatest[1] - least[1]];
+        let depth = self.draught.min(greatest[2]) - least[2];
+        if depth <= 0.0 {
+            return Vec::new();
+        }
+        let volume = length * breadth * depth;
+        let quantities = [
+            ("the displacement volume", self.displacement_volume, volume, "m3"),
+            ("the waterplane area", self.waterplane_area, length * breadth, "m2"),
+            ("the midship section area", self.midship_section_area, breadth * depth, "m2"),
+            ("the largest section area", self.maximum_section_area, breadth * depth, "m2"),
+        ];
+        let is_wrong = |value: f64, most: f64| value < -ROUNDING * most || value > (1.0 + ROUNDING) * most;
+        let wrong = quantities.into_iter().filter(|&(_, value, most, _)| is_wrong(value, most));
+        let mut found: Vec<String> = wrong
+            .map(|(name, value, most, unit)| {
+                format!(
+                    "at {:.3} m {name} is {value:.3} {unit}; that of the box around it is {most:.3} {unit}",
+                    self.draught
+                )
+            })
+            .collect();
+        if let Some(kb) = self.kb.filter(|kb| !(-ROUNDING..=1.0 + ROUNDING).contains(&((kb - least[2]) / depth))) {
+            let [low, high] = [least[2], least[2] + depth];
+            found.push(format!(
+                "at {:.3} m KB is {kb:.3} m; what is immersed is from {low:.3} to {high:.3} m",
+                self.draught
+            ));
+        }
+        found
+    }
+
+    /// Coefficients above 1, which the length, breadth and draught they are referred to do not hold, in words.
+    #[must_use]
+    pub fn above_one(&self) -> Vec<String> {
+        let coefficients = [
+            ("CB", self.block_coefficient),
+            ("CM", self.midship_coefficient),
+            ("CX", self.maximum_section_coefficient),
+            ("CP", self.prismatic_coefficient),
+            ("CWP", self.waterplane_coefficient),
+        ];
+        let above =
+            coefficients.into_iter().filter_map(|(name, value)| Some((name, value.filter(|v| *v > 1.0 + ROUNDING)?)));
+        above.map(|(name, value)| format!("{name} {value:.3}")).collect()
+    }
+}

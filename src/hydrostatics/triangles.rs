@@ -5,7 +5,8 @@
 //!
 //! ```text
 //! V = int y n_y dS,   M_x = int x y n_y dS,   M_z = int z y n_y dS,
-//! A_W = int y dx,   moments int x y dx, int x^2 y dx, int y^3/3 dx   along the waterline,
+//! A_W = int y dx,   moments int x y dx, int x^2 y dx, int y^2/2 dx, int y^3/3 dx   along the waterline,
+//! I_T = int y^3/3 dx - (int y^2/2 dx)^2 / A_W,
 //! A(x) = int y dz   along the section.
 //! ```
 //!
@@ -27,8 +28,12 @@ use crate::spline::{cross, length, minus};
 /// Sections among which the largest is looked for.
 const STATIONS: usize = 200;
 
-/// A draught as near to the highest point as this part of the depth is at it, and is taken as far below it as the second.
-const TOP: [f64; 2] = [1e-7, 1e-9];
+/// A draught as near to the highest point as this part of the depth is at it. It is taken below the vertices that are as
+/// near, by the second: a row of vertices at the waterline has errors of rounding.
+const TOP: [f64; 2] = [1e-5, 1e-9];
+
+/// Centre of buoyancy off the centreplane, over the breadth, from which a remark says so.
+const ASYMMETRIC: f64 = 1e-4;
 
 /// Cosine of the angle to the x axis within which triangles of the after body that face aft are of the transom.
 const TRANSOM: f64 = 0.9;
@@ -38,6 +43,7 @@ const TRANSOM: f64 = 0.9;
 struct Skin {
     volume: f64,
     moment_x: f64,
+    moment_y: f64,
     moment_z: f64,
     aft: f64,
     area: f64,
@@ -59,6 +65,7 @@ impl Skin {
         Self {
             volume,
             moment_x: normal[1] * product(0),
+            moment_y: 0.5 * normal[1] * product(1),
             moment_z: normal[1] * product(2),
             aft: if kind.aft { volume } else { 0.0 },
             area,
@@ -73,6 +80,7 @@ impl Skin {
     fn add(&mut self, other: &Self, factor: f64) {
         self.volume += factor * other.volume;
         self.moment_x += factor * other.moment_x;
+        self.moment_y += factor * other.moment_y;
         self.moment_z += factor * other.moment_z;
         self.aft += factor * other.aft;
         self.area += factor * other.area;
@@ -99,6 +107,7 @@ struct WaterlineSums {
     area: f64,
     moment: f64,
     second: f64,
+    across: f64,
     transverse: f64,
     least: [f64; 2],
     greatest: [f64; 2],
@@ -107,7 +116,7 @@ struct WaterlineSums {
 impl Default for WaterlineSums {
     fn default() -> Self {
         let (least, greatest) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        Self { area: 0.0, moment: 0.0, second: 0.0, transverse: 0.0, least, greatest }
+        Self { area: 0.0, moment: 0.0, second: 0.0, across: 0.0, transverse: 0.0, least, greatest }
     }
 }
 
@@ -118,6 +127,7 @@ impl WaterlineSums {
         self.area += dx * (y0 + y1) / 2.0;
         self.moment += dx * (x0 * (2.0 * y0 + y1) + x1 * (y0 + 2.0 * y1)) / 6.0;
         self.second += dx * (x0 * x0 * (3.0 * y0 + y1) + 2.0 * x0 * x1 * (y0 + y1) + x1 * x1 * (y0 + 3.0 * y1)) / 12.0;
+        self.across += dx * (y0 * y0 + y0 * y1 + y1 * y1) / 6.0;
         self.transverse += dx * (y0 + y1) * (y0 * y0 + y1 * y1) / 12.0;
         for (k, (p, q)) in [(x0, x1), (y0, y1)].into_iter().enumerate() {
             self.least[k] = self.least[k].min(p).min(q);
@@ -222,7 +232,8 @@ impl<'a> Areas<'a> {
     }
 }
 
-/// The greatest of values over equal steps, and where it is: between neighbours by a parabola.
+/// The greatest of values over equal steps, and where it is: between neighbours by a parabola. Where values go on level
+/// beside it there is a corner, and the greatest is one of them.
 fn greatest(places: &[f64], values: &[f64]) -> Option<(f64, f64)> {
     let at = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]).then(b.cmp(&a)))?;
     if values[at] <= 0.0 {
@@ -233,7 +244,10 @@ fn greatest(places: &[f64], values: &[f64]) -> Option<(f64, f64)> {
     }
     let [a, b, c] = [values[at - 1], values[at], values[at + 1]];
     let bend = a - 2.0 * b + c;
-    let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
+    // The parabola falls by b - c - bend from the higher neighbour to the one beyond it.
+    let (higher, beyond) = if c >= a { (c, values.get(at + 2)) } else { (a, at.checked_sub(2).map(|k| &values[k])) };
+    let is_corner = beyond.is_some_and(|beyond| higher - beyond < 0.5 * (b - higher - bend));
+    let shift = if bend < 0.0 && !is_corner { 0.5 * (a - c) / bend } else { 0.0 };
     Some((places[at] + shift * (places[at + 1] - places[at]), b - 0.25 * (a - c) * shift))
 }
 
@@ -294,6 +308,7 @@ impl Sums {
             area: of(a.area, b.area),
             moment: of(a.moment, b.moment),
             second: of(a.second, b.second),
+            across: of(a.across, b.across),
             transverse: of(a.transverse, b.transverse),
             ..b
         };
@@ -324,8 +339,9 @@ impl CurvesOfForm {
         let bounds = finer.unwrap_or(mesh).bounds().unwrap_or_default();
         let depth = bounds[1][2] - bounds[0][2];
         let near_top = |t: f64| (t - bounds[1][2]).abs() <= TOP[0] * depth;
-        let levels: Vec<f64> =
-            sorted.iter().map(|&t| if near_top(t) { bounds[1][2] - TOP[1] * depth } else { t }).collect();
+        let heights = [Some(mesh), finer].into_iter().flatten().flat_map(|mesh| mesh.vertices.iter().map(|v| v[2]));
+        let lowest = heights.filter(|&z| near_top(z)).fold(bounds[1][2], f64::min);
+        let levels: Vec<f64> = sorted.iter().map(|&t| if near_top(t) { lowest - TOP[1] * depth } else { t }).collect();
         let midship = 0.5 * particulars.length_between_perpendiculars;
         let length = bounds[1][0] - bounds[0][0];
         let places: Vec<f64> =
@@ -347,7 +363,10 @@ impl CurvesOfForm {
                     parallel: None,
                 };
                 let (body, plane) = (sums.skin.body(), sums.line.waterplane());
-                let remark = if near_top(draught) { None } else { remark(draught, &bounds) };
+                let beside = Some(sums.skin.moment_y / body.volume)
+                    .filter(|y| body.volume > 0.0 && y.abs() > ASYMMETRIC * (bounds[1][1] - bounds[0][1]));
+                let beside = beside.map(|y| format!("centre of buoyancy {y:.3} m to port of the centreplane"));
+                let remark = if near_top(draught) { None } else { remark(draught, &bounds) }.or(beside);
                 Hydrostatics { remark, ..row(particulars, draught, conventions, &body, &plane, &sections) }
             })
             .collect();
@@ -422,7 +441,8 @@ impl WaterlineSums {
             area: self.area,
             moment: self.moment,
             second: self.second,
-            transverse: self.transverse,
+            // About the waterplane's own axis: a body may lie beside the centreplane.
+            transverse: self.transverse - self.across * self.across / self.area,
             length: self.greatest[0] - self.least[0],
             breadth: self.greatest[1] - self.least[1],
             entrance: None,

@@ -1,13 +1,14 @@
 //! What floats: a hull, or a body of triangles whose hydrostatics need no surface.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::convert::is_hull;
 use super::failure::{Failure, problem};
 use super::source::{Overrides, read_bytes, read_source_with, sidecar, source_of};
+use crate::config::{Diagnostic, Severity};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{AFLOAT, AT_EDGE, Hull, HullError, PrincipalParticulars, TriangleMesh};
-use crate::hydrostatics::{Conventions, CurvesOfForm, default_draughts};
+use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, default_draughts};
 
 /// Part of the height of a body by which its lowest point may be from the base line.
 const AT_BASE: f64 = 0.2;
@@ -15,6 +16,8 @@ const AT_BASE: f64 = 0.2;
 /// A body with the conventions of its tables.
 #[derive(Debug, Clone)]
 pub struct HydrostaticBody {
+    /// Where it was read from.
+    path: PathBuf,
     body: BodyShape,
     /// Its main dimensions; of a body of triangles as far as they are stated, else its extents.
     pub particulars: PrincipalParticulars,
@@ -81,12 +84,51 @@ impl HydrostaticBody {
         Ok(list)
     }
 
-    /// Hydrostatics at draughts above the base line \[m\].
-    #[must_use]
-    pub fn curves_of_form(&self, draughts: &[f64], conventions: &Conventions) -> CurvesOfForm {
-        match &self.body {
+    /// Hydrostatics at draughts above the base line \[m\], with warnings about coefficients above 1.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] when a quantity is none that its body can have.
+    pub fn curves_of_form(
+        &self,
+        draughts: &[f64],
+        conventions: &Conventions,
+    ) -> Result<(CurvesOfForm, Vec<String>), Failure> {
+        let table = match &self.body {
             BodyShape::Hull(hull) => CurvesOfForm::new(hull, draughts, conventions),
             BodyShape::Triangles(meshes) => of_meshes(meshes, &self.particulars, draughts, conventions),
+        };
+        let bounds = self.bounds();
+        let impossible = |row: &Hydrostatics| row.impossible(bounds);
+        let faults: Vec<String> = table.rows.iter().flat_map(impossible).collect();
+        if let Some(first) = faults.first() {
+            let more = if faults.len() > 1 { format!(", and {} more", faults.len() - 1) } else { String::new() };
+            let remedy =
+                "The skin is counted twice, turned over, or has walls or tanks inside it: give the outer skin alone";
+            return Err(Failure::Input(vec![problem("E353", &self.path, format!("{first}{more}"), remedy)]));
+        }
+        let above = |row: &Hydrostatics| {
+            let found = row.above_one();
+            (!found.is_empty()).then(|| format!("{} at {:.3} m", found.join(", "), row.draught))
+        };
+        let warnings = table.rows.iter().find_map(above).map(|found| {
+            let dimensions = "Lpp, B and T are less than those of the body, or are measured elsewhere. State them";
+            let message = format!("coefficients are above 1: {found}");
+            Diagnostic { severity: Severity::Warning, ..problem("W353", &self.path, message, dimensions) }
+        });
+        Ok((table, warnings.iter().map(ToString::to_string).collect()))
+    }
+
+    /// The corners of a box that holds the body \[m\].
+    fn bounds(&self) -> [[f64; 3]; 2] {
+        match &self.body {
+            BodyShape::Triangles(meshes) => meshes.first().and_then(TriangleMesh::bounds).unwrap_or_default(),
+            BodyShape::Hull(hull) => {
+                let points = hull.surface().points();
+                let along = |k: usize, pick: fn(f64, f64) -> f64| points.iter().map(|p| p[k]).fold(points[0][k], pick);
+                let [least, greatest] = [f64::min, f64::max].map(|pick| [0, 1, 2].map(|k| along(k, pick)));
+                let half = greatest[1].max(-least[1]);
+                [[least[0], -half, least[2]], [greatest[0], half, greatest[2]]]
+            }
         }
     }
 }
@@ -124,7 +166,7 @@ pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<
         let (bytes, list) = (read_bytes(path)?, sidecar(path, overrides)?);
         let list = list.iter().map(|(name, text)| (name.as_str(), text.as_str()));
         if let Some(body) = read_body(&path.display().to_string(), &bytes, list) {
-            let body = body.map(of_body).map_err(|problems| overrides.refused(problems))?;
+            let body = body.map(|read| of_body(path, read)).map_err(|problems| overrides.refused(problems))?;
             return match body.draught_fault() {
                 None => Ok(body),
                 Some(fault) if overrides.states_draught() => Err(Failure::of_draught(&fault)),
@@ -135,7 +177,8 @@ pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<
     };
     let particulars = *source.hull.particulars();
     let body = BodyShape::Hull(Box::new(source.hull));
-    Ok(HydrostaticBody { body, particulars, conventions: source.conventions, notes: source.notes })
+    let path = path.to_owned();
+    Ok(HydrostaticBody { path, body, particulars, conventions: source.conventions, notes: source.notes })
 }
 
 /// The same with a design draught \[m\] above the base line, over that of the file.
@@ -157,7 +200,7 @@ pub fn read_hydrostatic_body_at(path: &Path, overrides: &Overrides, draught: f64
     Ok(body)
 }
 
-fn of_body(read: ReadBody) -> HydrostaticBody {
+fn of_body(path: &Path, read: ReadBody) -> HydrostaticBody {
     let [least, greatest] = read.meshes.first().and_then(TriangleMesh::bounds).unwrap_or_default();
     let extent = |k: usize| greatest[k] - least[k];
     let stated = read.stated;
@@ -181,5 +224,5 @@ fn of_body(read: ReadBody) -> HydrostaticBody {
             particulars.length_between_perpendiculars
         ));
     }
-    HydrostaticBody { body: BodyShape::Triangles(read.meshes), particulars, conventions, notes }
+    HydrostaticBody { path: path.to_owned(), body: BodyShape::Triangles(read.meshes), particulars, conventions, notes }
 }

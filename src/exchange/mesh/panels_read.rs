@@ -1,10 +1,13 @@
 //! Reading of panels, in the units and axes of their files: GDF (WAMIT), PNL (HAMS), meshes of NEMOH. Numbers are read
-//! as words whatever the lines; a panel of four different corners becomes two triangles from its first. Where the file
-//! names a plane of symmetry, the half that is given is read: whoever reads bodies mirrors it.
+//! as words whatever the lines; a panel of four different corners becomes two triangles from its first. What the
+//! plane of symmetry x = 0 mirrors is added. Where y = 0 is one, the half that is given is read: whoever reads bodies mirrors it.
 
 use super::super::fault::{Faults, LARGEST, RecordFault};
 use super::MOST_TRIANGLES;
 use crate::hull::TriangleMesh;
+
+/// A body that reaches further to both sides, over its breadth, is none of which one side is given.
+const BOTH_SIDES: f64 = 1e-2;
 
 /// The words of a text with their lines; what follows `!` or `#` in a line is a comment.
 struct Words<'a> {
@@ -65,6 +68,10 @@ impl<'a> Words<'a> {
         }
     }
 
+    fn is_at_end(&self) -> bool {
+        self.list.as_slice().is_empty()
+    }
+
     fn line(&self) -> usize {
         self.list.as_slice().first().map_or(self.last, |(line, _)| *line)
     }
@@ -76,12 +83,31 @@ fn triangles([a, b, c, d]: [[f64; 3]; 4]) -> [[[f64; 3]; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
 
-fn body(mut faults: Faults, corners: Vec<[[f64; 3]; 3]>) -> Result<TriangleMesh, Vec<RecordFault>> {
-    let mesh = TriangleMesh::from_corners(corners.into_iter());
+/// Panels as triangles, in the axes of their formats: x forward, y to port, z up.
+pub(in super::super) struct PanelBody {
+    /// What the file gives, and what the plane x = 0 mirrors.
+    pub mesh: TriangleMesh,
+    /// Whether y = 0 is a plane of symmetry: one side is given.
+    pub is_half: bool,
+}
+
+/// The body of corners and the planes of symmetry, x = 0 and y = 0.
+fn body(
+    mut faults: Faults,
+    corners: Vec<[[f64; 3]; 3]>,
+    [along, across]: [bool; 2],
+) -> Result<PanelBody, Vec<RecordFault>> {
+    let other_end = corners.iter().filter(|_| along).map(|&[a, b, c]| [a, c, b].map(|[x, y, z]| [0.0 - x, y, z]));
+    let mesh = TriangleMesh::from_corners(corners.iter().copied().chain(other_end));
     if mesh.triangles.is_empty() && faults.list.is_empty() {
         faults.add(None, "", "no panels".to_owned());
     }
-    faults.or(|| mesh)
+    let [below, above] = mesh.bounds().map_or([0.0; 2], |[least, greatest]| [least[1], greatest[1]]);
+    if across && -below > BOTH_SIDES * (above - below) && above > BOTH_SIDES * (above - below) {
+        let message = format!("y = 0 is a plane of symmetry, and panels are on both sides: y from {below} to {above}");
+        faults.add(None, "", message);
+    }
+    faults.or(|| PanelBody { mesh, is_half: across })
 }
 
 fn too_many(count: usize, faults: &mut Faults) -> bool {
@@ -96,15 +122,16 @@ fn too_many(count: usize, faults: &mut Faults) -> bool {
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.
-pub(in super::super) fn read_gdf(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+pub(in super::super) fn read_gdf(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut words = Words::of(&text, 1);
     let mut corners = Vec::new();
-    let header = |words: &mut Words<'_>| -> Option<usize> {
+    let mut planes = [false; 2];
+    let mut header = |words: &mut Words<'_>| -> Option<usize> {
         for what in [["ULEN", "GRAV"], ["ISX", "ISY"]] {
             let line = words.line();
-            words.number(what[0])?;
-            words.number(what[1])?;
+            let numbers = [words.number(what[0])?, words.number(what[1])?];
+            planes = numbers.map(|number| number == 1.0);
             // Names may follow the numbers.
             words.next_line(line);
         }
@@ -118,13 +145,13 @@ pub(in super::super) fn read_gdf(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
             let mut panel = [[0.0; 3]; 4];
             let what = format!("a corner of panel {} of {count}", k + 1);
             for corner in &mut panel {
-                let Some(point) = words.point(&what) else { return body(words.faults, Vec::new()) };
+                let Some(point) = words.point(&what) else { return body(words.faults, Vec::new(), planes) };
                 *corner = point;
             }
             corners.extend(triangles(panel));
         }
     }
-    body(words.faults, corners)
+    body(words.faults, corners, planes)
 }
 
 /// A panel by the numbers of its nodes, from 1; none, with a fault, when there is no such node.
@@ -140,49 +167,71 @@ fn by_number(numbers: [usize; 4], nodes: &[[f64; 3]], line: usize, faults: &mut 
     Some(panel)
 }
 
+/// Whether this is the beginning of a mesh of NEMOH, whose files have several endings: 2 and 0 or 1 on the first line, node 1
+/// and its three coordinates on the second.
+pub(in super::super) fn is_nemoh(bytes: &[u8]) -> bool {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(500)]).into_owned();
+    let mut lines = start.lines().map(|line| line.split_whitespace().collect::<Vec<&str>>());
+    let Some((first, second)) = lines.next().zip(lines.next()) else { return false };
+    let are_coordinates = |words: &[&str]| words.iter().all(|word| word.parse::<f64>().is_ok());
+    matches!(first[..], ["2", "0" | "1"])
+        && second.len() == 4
+        && second[0].parse::<f64>().is_ok_and(|number| number == 1.0)
+        && are_coordinates(&second[1..])
+}
+
 /// Reads a mesh of NEMOH: two numbers, nodes with their numbers up to a line of zeros, four corners of each panel up to
-/// another.
+/// another or to the end of the file. A line of zeros may have any number of them.
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.
-pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut words = Words::of(&text, 0);
     let (mut nodes, mut corners) = (Vec::new(), Vec::new());
     let first = words.line();
-    if words.number("2").is_none() || words.number("0 or 1 for the plane of symmetry").is_none() {
-        return body(words.faults, corners);
+    let (dimension, plane) = (words.number("2"), words.number("0 or 1 for the plane of symmetry"));
+    let planes = [false, plane == Some(1.0)];
+    if dimension.and(plane).is_none() {
+        return body(words.faults, corners, planes);
     }
     words.next_line(first);
     loop {
-        let (Some(number), Some(point)) = (words.count("the number of a node, or 0"), words.point("a coordinate"))
-        else {
-            return body(words.faults, corners);
+        let line = words.line();
+        let Some(number) = words.count("the number of a node, or 0") else {
+            return body(words.faults, corners, planes);
         };
         if number == 0 {
+            words.next_line(line);
             break;
         }
+        let Some(point) = words.point("a coordinate") else { return body(words.faults, corners, planes) };
         nodes.push(point);
         if too_many(nodes.len(), &mut words.faults) {
-            return body(words.faults, corners);
+            return body(words.faults, corners, planes);
         }
     }
     loop {
+        if words.is_at_end() {
+            return body(words.faults, corners, planes);
+        }
         let line = words.line();
         let mut numbers = [0; 4];
-        for number in &mut numbers {
-            let Some(found) = words.count("the number of a corner, or 0") else { return body(words.faults, corners) };
-            *number = found;
-        }
-        if numbers == [0; 4] {
-            return body(words.faults, corners);
+        for k in 0..4 {
+            let Some(found) = words.count("the number of a corner, or 0") else {
+                return body(words.faults, corners, planes);
+            };
+            if k == 0 && found == 0 {
+                return body(words.faults, corners, planes);
+            }
+            numbers[k] = found;
         }
         let Some(panel) = by_number(numbers, &nodes, line, &mut words.faults) else {
-            return body(words.faults, corners);
+            return body(words.faults, corners, planes);
         };
         corners.extend(triangles(panel));
         if too_many(corners.len() / 2, &mut words.faults) {
-            return body(words.faults, corners);
+            return body(words.faults, corners, planes);
         }
     }
 }
@@ -192,7 +241,7 @@ pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<TriangleMesh, Vec<Rec
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.
-pub(in super::super) fn read_pnl(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+pub(in super::super) fn read_pnl(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     // Headings are lines of dashes.
     let said: String =
@@ -200,39 +249,40 @@ pub(in super::super) fn read_pnl(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
     let mut words = Words::of(&said, 0);
     let mut corners = Vec::new();
     let header = [(); 4].map(|()| words.count("the numbers of panels and nodes and the symmetries"));
-    let [Some(panels), Some(count), Some(_), Some(_)] = header else { return body(words.faults, corners) };
+    let planes = [header[2], header[3]].map(|plane| plane == Some(1));
+    let [Some(panels), Some(count), Some(_), Some(_)] = header else { return body(words.faults, corners, planes) };
     if too_many(panels.max(count), &mut words.faults) {
-        return body(words.faults, corners);
+        return body(words.faults, corners, planes);
     }
     let mut nodes = Vec::new();
     for k in 0..count {
         let what = format!("node {} of {count}", k + 1);
         let (Some(_), Some(point)) = (words.count(&what), words.point(&what)) else {
-            return body(words.faults, corners);
+            return body(words.faults, corners, planes);
         };
         nodes.push(point);
     }
     for k in 0..panels {
         let (line, what) = (words.line(), format!("panel {} of {panels}", k + 1));
         let (Some(_), Some(sides)) = (words.count(&what), words.count(&what)) else {
-            return body(words.faults, corners);
+            return body(words.faults, corners, planes);
         };
         if !(3..=4).contains(&sides) {
             words.faults.add(Some(line), &sides.to_string(), "expected 3 or 4 corners".to_owned());
-            return body(words.faults, corners);
+            return body(words.faults, corners, planes);
         }
         let mut numbers = [0; 4];
         for number in numbers.iter_mut().take(sides) {
-            let Some(found) = words.count(&what) else { return body(words.faults, corners) };
+            let Some(found) = words.count(&what) else { return body(words.faults, corners, planes) };
             *number = found;
         }
         if sides == 3 {
             numbers[3] = numbers[2];
         }
         let Some(panel) = by_number(numbers, &nodes, line, &mut words.faults) else {
-            return body(words.faults, corners);
+            return body(words.faults, corners, planes);
         };
         corners.extend(triangles(panel));
     }
-    body(words.faults, corners)
+    body(words.faults, corners, planes)
 }

@@ -10,14 +10,16 @@ use std::f64::consts::PI;
 
 use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
 use super::super::fault::RecordFault;
-use super::super::mesh::{is_glb, is_obj, is_stl, read_gdf, read_glb, read_nemoh, read_obj, read_pnl, read_stl};
+use super::super::mesh::{
+    PanelBody, is_glb, is_nemoh, is_obj, is_stl, read_gdf, read_glb, read_nemoh, read_obj, read_pnl, read_stl,
+};
 use super::super::subdivision::{SubdivisionProject, is_fbm, is_ftm, read_fbm, read_ftm};
 use super::outline::{Deck, point, take_off_deck};
 use super::problem::{FilePosition, Problems};
 use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
 use super::settings::{BodyFrame, Settings};
 use super::{ReadTable, TableProblem, sidecar};
-use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
+use crate::hull::{BodyPart, MeshLine, StatedParticulars, TriangleMesh};
 use crate::spline::BsplineSurface;
 use crate::units::counted;
 
@@ -32,6 +34,14 @@ const INSIDE: f64 = 1e-5;
 
 /// A body whose ends of an axis differ by less than this part of its size is symmetric about the zero of the axis.
 const SYMMETRIC: f64 = 1e-3;
+
+/// The middle of a body over its extent: up to the first athwartships, from the second on upwards, of one that is not quite
+/// symmetric.
+const NEARLY: f64 = 0.1;
+const NOT_NEARLY: f64 = 0.5;
+
+/// Corners of one side of a body this many times as far from the centreplane as its inner edge belong on it.
+const MOVED: f64 = 1.5;
 
 /// Points nearer to the centreplane than this part of the size of the body are on it.
 const ON_CENTREPLANE: f64 = 1e-6;
@@ -67,6 +77,7 @@ pub struct ReadBody {
 /// What stands in a file.
 enum Shape {
     Triangles(TriangleMesh),
+    Panels(PanelBody),
     Surfaces(CadSurfaces),
     Net(SubdivisionProject),
     /// What cannot be read.
@@ -92,11 +103,11 @@ fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, BodyReader)> {
     } else if is_glb(bytes) || ends(&[".glb"]) {
         Some(("GLB", |bytes| read_glb(bytes).map(Shape::Triangles)))
     } else if ends(&[".gdf"]) {
-        Some(("GDF", |bytes| read_gdf(bytes).map(Shape::Triangles)))
+        Some(("GDF", |bytes| read_gdf(bytes).map(Shape::Panels)))
     } else if ends(&[".pnl"]) {
-        Some(("PNL", |bytes| read_pnl(bytes).map(Shape::Triangles)))
-    } else if ends(&[".mar"]) {
-        Some(("NEMOH", |bytes| read_nemoh(bytes).map(Shape::Triangles)))
+        Some(("PNL", |bytes| read_pnl(bytes).map(Shape::Panels)))
+    } else if ends(&[".mar"]) || is_nemoh(bytes) {
+        Some(("NEMOH", |bytes| read_nemoh(bytes).map(Shape::Panels)))
     } else if ends(&[".obj"]) || is_obj(bytes) {
         Some(("OBJ", |bytes| read_obj(bytes).map(Shape::Triangles)))
     } else {
@@ -132,7 +143,13 @@ pub fn read_body<'a>(
         Shape::Triangles(mesh) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
-            framed(vec![mesh], &settings, &Given { unit: 1.0, axes: None, surfaces: false }, &mut problems)
+            framed(vec![mesh], &settings, &Given::plain(1.0), &mut problems)
+        }
+        Shape::Panels(PanelBody { mesh, is_half }) => {
+            let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
+            problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
+            let given = Given { axes: Some(AS_WRITTEN), half: Some(is_half), ..Given::plain(1.0) };
+            framed(vec![mesh], &settings, &given, &mut problems)
         }
         Shape::Net(SubdivisionProject { name, stated, unit, net }) => {
             let [points, faces, edges] = [net.points.len(), net.faces.len(), net.edges.len()];
@@ -152,7 +169,7 @@ pub fn read_body<'a>(
             *length_between_perpendiculars = length_between_perpendiculars.or(stated.length_between_perpendiculars);
             *breadth = breadth.or(stated.breadth);
             *draught = draught.or(stated.draught);
-            let given = Given { unit, axes: Some([(0, 1.0), (1, 1.0), (2, 1.0)]), surfaces: false };
+            let given = Given { axes: Some(AS_WRITTEN), ..Given::plain(unit) };
             framed(meshes.to_vec(), &settings, &given, &mut problems)
         }
         Shape::Nothing => Vec::new(),
@@ -169,7 +186,7 @@ pub fn read_body<'a>(
                 Ok((nested, deviation)) => {
                     let triangles = nested[1].triangles.len();
                     problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
-                    framed(nested.to_vec(), &settings, &Given { unit, axes: None, surfaces: true }, &mut problems)
+                    framed(nested.to_vec(), &settings, &Given { surfaces: true, ..Given::plain(unit) }, &mut problems)
                 }
                 Err(count) => {
                     let message = format!(
@@ -226,9 +243,21 @@ pub(super) struct Given {
     pub(super) unit: f64,
     /// The axes, where the format has them.
     pub(super) axes: Option<[(usize, f64); 3]>,
+    /// Whether one side is given, where the format says so.
+    pub(super) half: Option<bool>,
     /// Triangles over surfaces, each for itself.
     pub(super) surfaces: bool,
 }
+
+impl Given {
+    /// A file that says nothing but its unit \[m\].
+    pub(super) fn plain(unit: f64) -> Self {
+        Self { unit, axes: None, half: None, surfaces: false }
+    }
+}
+
+/// The axes of a file whose x is forward, y to port and z up.
+const AS_WRITTEN: [(usize, f64); 3] = [(0, 1.0), (1, 1.0), (2, 1.0)];
 
 /// How points of a file come into the ship's frame.
 pub(super) struct Placement {
@@ -276,14 +305,15 @@ fn framed(
     let BodyFrame { x_origin, z_origin, .. } = settings.frame;
     let surfaces = given.surfaces;
     let place = |corner: [f64; 3]| placement.place(corner);
+    let mut half = None;
     for (k, mesh) in meshes.iter_mut().enumerate() {
         let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
         *mesh = TriangleMesh::from_corners(corners.into_iter());
-        if mesh.is_half() {
-            if k == 0 {
-                problems.note("one side of the body is given; it is mirrored".to_owned());
-            }
-            *mesh = mesh.mirrored();
+        if k == 0 {
+            half = one_side(mesh, settings.frame.half, given.half, problems);
+        }
+        if let Some(slack) = half {
+            *mesh = mesh.mirrored(slack);
         }
         if surfaces {
             *mesh = without_top(mesh);
@@ -334,6 +364,48 @@ fn framed(
     meshes
 }
 
+/// Of a body of which one side is given, within how much of the centreplane its corners belong on it \[m\]; none of a
+/// whole one. `stated` stands before what the `format` says, and both before how the body lies.
+fn one_side(mesh: &TriangleMesh, stated: Option<bool>, format: Option<bool>, problems: &mut Problems) -> Option<f64> {
+    let part = mesh.part();
+    let known = stated.or(format);
+    if known == Some(false) {
+        if stated.is_none() && part != BodyPart::Whole {
+            let message = "the body is on one side of y = 0, and the file names no plane of symmetry there: it is taken as whole. \
+                           --body half (body in the TOML beside it) says otherwise";
+            problems.warning("W320", FilePosition::FILE, message.to_owned(), "");
+        }
+        return None;
+    }
+    let slack = match part {
+        BodyPart::Half { inner } => MOVED * inner.abs(),
+        BodyPart::Whole if known.is_none() => return None,
+        BodyPart::BesideWall if known.is_none() => {
+            let message = "the body lies on one side of y = 0 and has a wall there: one half of a hull, or a whole body beside it";
+            problems.error(
+                "E351",
+                FilePosition::FILE,
+                message.to_owned(),
+                "Say --body half or --body whole (body in the TOML beside it)",
+            );
+            return None;
+        }
+        _ => 0.0,
+    };
+    let Some([least, greatest]) = mesh.bounds() else { return None };
+    if slack > ON_CENTREPLANE * (greatest[1] - least[1]) {
+        let message = format!(
+            "one side of the body is given, and its inner edge is {:.4} m off y = 0: it is moved there and mirrored. \
+             --body whole (body in the TOML beside it) says otherwise",
+            slack / MOVED
+        );
+        problems.warning("W320", FilePosition::FILE, message, "");
+    } else {
+        problems.note("one side of the body is given; it is mirrored".to_owned());
+    }
+    Some(slack)
+}
+
 /// A body without what is level at its top: an untrimmed deck is wider than the hull, and closes nothing that counts.
 fn without_top(mesh: &TriangleMesh) -> TriangleMesh {
     let Some([least, greatest]) = mesh.bounds() else { return mesh.clone() };
@@ -365,14 +437,19 @@ fn found_axes(
         near(least[k] + greatest[k]) || near(least[k]) || near(greatest[k])
     };
     let symmetric = |k: usize| (least[k] + greatest[k]).abs() <= SYMMETRIC * size;
+    // A body whose centreline is a little off, or whose sides differ, is nearer to symmetry across than up.
+    let off = |k: usize| (least[k] + greatest[k]).abs() / extent(k).max(f64::MIN_POSITIVE);
+    let is_nearly = |[across, up]: [usize; 2]| off(across) <= NEARLY && off(up) >= NOT_NEARLY;
     let names = ["x", "y", "z"];
     // The right-handed frame in which the longest axis is forward and the third is up.
     let (y, z) = ((long + 1) % 3, (long + 2) % 3);
     let frame = match [y, z].map(|k| (symmetric(k), across(k))) {
         [(true, _), (false, _)] => [(long, 1.0), (y, 1.0), (z, 1.0)],
         [(false, _), (true, _)] => [(long, 1.0), (z, -1.0), (y, 1.0)],
-        [(false, true), (false, false)] => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        [(false, false), (false, true)] => [(long, 1.0), (z, -1.0), (y, 1.0)],
+        [(false, true), (false, false)] if !is_nearly([z, y]) => [(long, 1.0), (y, 1.0), (z, 1.0)],
+        [(false, false), (false, true)] if !is_nearly([y, z]) => [(long, 1.0), (z, -1.0), (y, 1.0)],
+        _ if is_nearly([y, z]) => [(long, 1.0), (y, 1.0), (z, 1.0)],
+        _ if is_nearly([z, y]) => [(long, 1.0), (z, -1.0), (y, 1.0)],
         // Both may be: what is usual.
         [(a, true), (b, true)] if a == b => [(long, 1.0), (y, 1.0), (z, 1.0)],
         _ => {
@@ -385,6 +462,14 @@ fn found_axes(
             return None;
         }
     };
+    let across = frame[1].0;
+    if !symmetric(across) && is_nearly([across, frame[2].0]) {
+        let message = format!(
+            "{} runs from {} to {}: the body is not symmetric about the centreplane, and is taken as it is",
+            names[across], least[across], greatest[across]
+        );
+        problems.warning("W320", FilePosition::FILE, message, "");
+    }
     if frame.map(|(axis, _)| axis) != [0, 1, 2] {
         let written = frame.map(|(axis, sign)| format!("{}{}", if sign < 0.0 { "-" } else { "" }, names[axis]));
         let message = format!("axes are taken as \"{}\" by the extents of the body", written.join(" "));

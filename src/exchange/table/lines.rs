@@ -92,7 +92,7 @@ fn placed(curves: &[CadCurve], settings: &Settings, unit: f64, problems: &mut Pr
     let fold =
         |pick: fn(f64, f64) -> f64| points().fold(first, |ends, point| [0, 1, 2].map(|k| pick(ends[k], point[k])));
     let bounds = [fold(f64::min), fold(f64::max)];
-    let given = Given { unit, axes: None, surfaces: false };
+    let given = Given::plain(unit);
     let placement = Placement::of(bounds, settings, &given, problems)?;
     let line = |curve: &CadCurve| SpaceCurve {
         row: curve.line,

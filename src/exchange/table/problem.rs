@@ -17,7 +17,8 @@
 //! | E313 | a table with too little in it |
 //! | E315 | a length that is no ship's |
 //! | E350 | a record of a body that cannot be read |
-//! | E351 | a body whose size or axes cannot be |
+//! | E351 | a body whose size or axes cannot be, or of which it is not known whether it is whole |
+//! | E353 | hydrostatics that no body can have |
 //! | W306 | no profiles of stem and stern |
 //! | W307 | few waterlines below the draught |
 //! | W308 | a draught above the top of the table |
@@ -27,6 +28,7 @@
 //! | W320 | something was assumed that changes numbers |
 //! | W351 | a body that is not closed |
 //! | W352 | surfaces that are not read |
+//! | W353 | coefficients above 1 on the length, breadth and draught they are referred to |
 //! | W312 | more remarks than are shown |
 //! | N321 | what was detected: layout, separator, order, units |
 

@@ -20,6 +20,7 @@
 //! decimal = ","               # , .
 //! axes = "x -z y"             # of a body of triangles or surfaces: our x, y, z in terms of the file's
 //! up = "y"                    # of a body: the file's axis that points up, instead of all three
+//! body = "half"               # of a body: one side of it (half), or all (whole)
 //! scale = 59.407              # of a body: metres (or units) for one of the file, a model's scale
 //! x_origin = 71.056           # of a body: where the origin of the file is, forward of AP, above the base line [m]
 //! z_origin = 6.15
@@ -92,6 +93,8 @@ pub(super) struct BodyFrame {
     pub(super) axes: Option<[(usize, f64); 3]>,
     /// The axis that points up, with its sign.
     pub(super) up: Option<(usize, f64)>,
+    /// Whether one side of it is given.
+    pub(super) half: Option<bool>,
     pub(super) scale: Option<f64>,
     /// Where the origin of the file is in x and in z \[m\].
     pub(super) x_origin: Option<f64>,
@@ -101,7 +104,7 @@ pub(super) struct BodyFrame {
 }
 
 /// Keys of `[table]`.
-pub(super) const KEYS: [&str; 24] = [
+pub(super) const KEYS: [&str; 25] = [
     "name",
     "units",
     "x_units",
@@ -122,6 +125,7 @@ pub(super) const KEYS: [&str; 24] = [
     "comment",
     "axes",
     "up",
+    "body",
     "scale",
     "x_origin",
     "z_origin",
@@ -237,6 +241,7 @@ impl Settings {
                 self.frame.up = Some(choice(key, value, &[signs, below].concat())?);
                 self.frame.axes = None;
             }
+            "body" => self.frame.half = Some(choice(key, value, &[("half", true), ("whole", false)])?),
             "scale" => self.frame.scale = Some(length(key, value)?),
             "x_origin" => self.frame.x_origin = Some(place(key, value)?),
             "z_origin" => self.frame.z_origin = Some(place(key, value)?),

@@ -43,11 +43,22 @@ fn half_a_body_is_mirrored_without_its_middle() {
     let half = TriangleMesh::from_corners(
         mesh.corners().map(|t| t.map(|[x, y, z]| [x, 0.5 * (y + 1.0), z])).collect::<Vec<_>>().into_iter(),
     );
-    assert!(half.is_half() && !mesh.is_half());
-    let whole = half.mirrored();
-    let report = whole.report();
+    assert_eq!([half.part(), mesh.part()], [BodyPart::BesideWall, BodyPart::Whole]);
+    let report_of = |half: &TriangleMesh, slack: f64| {
+        let whole = half.mirrored(slack);
+        assert!(whole.open_edges().is_empty() && whole.part() == BodyPart::Whole);
+        whole.report()
+    };
+    let report = report_of(&half, 0.0);
     assert!(report.closed && report.open_edges == 0 && (report.volume - 16.0).abs() < 1e-12, "{report:?}");
-    assert!(whole.open_edges().is_empty() && !whole.is_half());
+    // Without the wall, its inner edge 5 mm off the centreplane to either side.
+    for inner in [0.005, -0.005] {
+        let moved = |[x, y, z]: [f64; 3]| [x, if y == 0.0 { inner } else { y }, z];
+        let open = half.corners().filter(|t| t.iter().any(|point| point[1] != 0.0)).map(|t| t.map(moved));
+        let open = TriangleMesh::from_corners(open.collect::<Vec<_>>().into_iter());
+        assert_eq!(open.part(), BodyPart::Half { inner });
+        assert!((report_of(&open, 0.006).volume - 16.0).abs() < 1e-12);
+    }
 }
 
 #[test]
@@ -102,6 +113,6 @@ fn rational_surfaces_are_met_within_the_deviation() {
         assert!(worst < 1.2e-3 / (times * times) as f64, "{worst:e}");
         assert!(last.is_nan() || (worst / last - 0.25).abs() < 0.02, "{worst:e} after {last:e}");
         last = worst;
-        assert!((mesh.mirrored().report().area / (20.0 * 2.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3);
+        assert!((mesh.mirrored(0.0).report().area / (20.0 * 2.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3);
     }
 }

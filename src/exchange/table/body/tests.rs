@@ -49,7 +49,7 @@ fn frames_are_stated_or_found() {
     };
     // y up, x aft, feet, half of it.
     let half = brick(|[x, y, z]| [-x / 0.3048, z / 0.3048, -0.5 * (y + 3.0) / 0.3048]);
-    let (found, said) = volume(&half, "[table]\nunits = 'ft'\naxes = '-x -z y'\n").unwrap();
+    let (found, said) = volume(&half, "[table]\nunits = 'ft'\naxes = '-x -z y'\nbody = 'half'\n").unwrap();
     assert!((found - 960.0).abs() < 1e-9 && said.contains("mirrored"), "{found} {said}");
     // y up is seen when z is the axis of symmetry; the height does not begin at 0.
     let (found, said) = volume(&brick(|[x, y, z]| [x, z - 1.0, -y]), "").unwrap();

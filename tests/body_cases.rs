@@ -1,0 +1,109 @@
+//! Bodies of other programs and of other habits: units, versions, axes, halves, and skins that no hull has. Volumes are those
+//! of boxes and of outside readers.
+
+use std::fs;
+use std::path::PathBuf;
+
+use loftsman::hydrostatics::{Conventions, Hydrostatics};
+use loftsman::report::{Failure, read_hydrostatic_body};
+
+use crate::support::{carried, folder, program, stderr};
+
+fn case(name: &str) -> PathBuf {
+    carried("tests/body_cases").join(name)
+}
+
+fn row(name: &str, draught: f64) -> Result<Hydrostatics, Failure> {
+    let body = read_hydrostatic_body(&case(name))?;
+    Ok(body.curves_of_form(&[draught], &Conventions::default())?.0.rows.remove(0))
+}
+
+#[test]
+fn bodies_of_other_programs_displace_what_they_should() {
+    // File, draught [m], volume [m3].
+    let cases = [
+        ("box-4.3.ftm", 1.0, 80.0),
+        ("capitals.stl", 3.0, 1800.0),
+        ("box.mar", -1.0, 320.0),
+        ("box.dat", -1.0, 320.0),
+        ("barge-inch.step", 2.0, 240.0),
+        ("barge-ft.step", 2.0, 240.0),
+        ("off-0.1.stl", 3.0, 1350.0),
+        ("wide.gdf", -2.0, 97.2),
+        ("half-flap.gdf", -2.0, 239.76),
+        ("half-y-from-0.stl", 3.0, 1350.0),
+        ("half-y-from-0.03.stl", 3.0, 1350.0),
+        ("half-1cm.stl", 10.8, 51_855.0),
+        ("whole-y0-to-4.gdf", -1.0, 40.0),
+    ];
+    for (name, draught, volume) in cases {
+        let found = row(name, draught).unwrap_or_else(|error| panic!("{name}: {error}")).displacement_volume;
+        assert!((found - volume).abs() <= 1e-3 * volume, "{name}: {found}, expected {volume}");
+    }
+}
+
+#[test]
+fn a_waterplane_turns_about_its_own_axis() {
+    // 40 m by 2 m about y = 5 m, and not about y = 0; a flap by its breadth of 12 m.
+    let beside = row("box-y-4-to-6.gdf", -0.5).unwrap();
+    let inertia = beside.waterplane_area.powi(3) / 40.0f64.powi(2) / 12.0;
+    assert!((beside.transverse_inertia - inertia).abs() < 1e-9 * inertia, "{}", beside.transverse_inertia);
+    assert!(beside.remark.is_some_and(|remark| remark.contains("to port of the centreplane")));
+    let wide = row("wide.gdf", -2.0).unwrap().transverse_inertia;
+    assert!((wide - 874.8).abs() < 1e-9 * 874.8, "{wide}");
+}
+
+#[test]
+fn a_row_of_vertices_at_the_waterline_may_have_errors_of_rounding() {
+    let area = row("noise-2e-6.gdf", 0.0).unwrap().waterplane_area;
+    assert!((area - 40.0).abs() < 1e-4, "{area}");
+}
+
+#[test]
+fn skins_that_no_hull_has_are_refused() {
+    for name in ["bulkheads.stl", "twice.stl"] {
+        let error = row(name, 3.0).unwrap_err().to_string();
+        assert!(error.contains("E353") && error.contains("displacement volume"), "{name}: {error}");
+    }
+}
+
+#[test]
+fn edges_of_surfaces_are_no_sections() {
+    let output = program(&["hydro", &case("pontoon.igs").display().to_string(), "--draughts", "2"]);
+    assert!(output.status.code() == Some(3) && stderr(&output).contains("6 of 108"), "{}", stderr(&output));
+}
+
+#[test]
+fn coefficients_above_one_are_told() {
+    let folder = folder("body-above-one");
+    let path = folder.join("box.stl");
+    fs::copy(case("capitals.stl"), &path).unwrap();
+    fs::write(path.with_extension("toml"), "[table]\nLpp = 30\nB = 10\nT = 3\n").unwrap();
+    let (table, warnings) =
+        read_hydrostatic_body(&path).unwrap().curves_of_form(&[3.0], &Conventions::default()).unwrap();
+    assert!((table.rows[0].block_coefficient.unwrap() - 2.0).abs() < 1e-9);
+    assert!(warnings[0].contains("W353") && warnings[0].contains("CB 2.000"), "{warnings:?}");
+    fs::remove_dir_all(folder).unwrap();
+}
+
+/// A prism between ends that slope in: its largest section is the rectangle, and no parabola over the corner.
+#[test]
+fn the_largest_section_of_a_prism_is_its_own() {
+    let found = row("half-y-from-0.stl", 3.0).unwrap();
+    assert!((found.maximum_section_area - 30.0).abs() < 1e-9, "{}", found.maximum_section_area);
+}
+
+#[test]
+fn a_wall_on_the_centreplane_asks_whether_the_body_is_whole() {
+    let half = |part: &[&str]| {
+        let path = case("half-wall.stl").display().to_string();
+        program(&[&["hydro", &path, "--draughts", "2", "--csv"], part].concat())
+    };
+    assert!(stderr(&half(&[])).contains("--body half or --body whole"), "{}", stderr(&half(&[])));
+    for (part, volume) in [("half", "480"), ("whole", "240")] {
+        let found = half(&["--body", part]);
+        let text = String::from_utf8_lossy(&found.stdout).into_owned();
+        let values: Vec<&str> = text.lines().last().unwrap().split(',').collect();
+        assert!(values.contains(&volume), "{part}: {text}");
+    }
+}
