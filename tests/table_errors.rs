@@ -218,6 +218,32 @@ fn w311_stations_on_both_sides_of_the_origin() {
     }
 }
 
+/// On one side: half a metre of 2 m^2 below the lowest waterline, and 0.875 m^3 above it.
+#[test]
+fn w315_a_bottom_that_the_table_does_not_show() {
+    let text = "x [m],0.5,1\n0,0,0\n1,2,1\n2,0,1\n";
+    among(&notes(text, ""), &["W315", "the lowest waterline is 0.5 m above the base line", "up to 53.3 %"]);
+    for quiet in ["x [m],0,1\n0,0,0\n1,2,1\n2,0,1\n", "x [m],keel,0.5,1\n0,0,0,0\n1,0,2,1\n2,0,0,1\n"] {
+        assert!(!notes(quiet, "").iter().any(|note| note.contains("W315")), "{:?}", notes(quiet, ""));
+    }
+}
+
+#[test]
+fn waterlines_that_are_numbered_are_told() {
+    let text = "x [m],WL 0,WL 1,WL 2\n0,0,0,0\n1,2,1,2\n2,0,1,1\n".replace("x [m]", "");
+    among(
+        &notes(&text, ""),
+        &["W320", "waterlines are numbered, 'WL 0' to 'WL 2'", "taken as 1 m apart", "waterline_spacing"],
+    );
+    let quiet = |text: &str, beside: &str| {
+        let found = notes(text, beside);
+        assert!(!found.iter().any(|note| note.contains("are numbered, 'WL")), "{found:?}");
+    };
+    quiet(&text, "[table]\nwaterline_spacing = 1.5\n");
+    quiet(&text.replace("WL 1", "WL 0.75"), "");
+    quiet(&format!("z [m]{text}"), "");
+}
+
 /// Dimensions may stand beside a table as in a job.
 #[test]
 fn dimensions_beside_a_table() {

@@ -4,7 +4,7 @@ use super::checks;
 use super::grid::MOST_LINES;
 use super::header::{Axis, Coordinate, Corner, Position, position};
 use super::matrix::{Block, MatrixRow};
-use super::problem::{Field, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, Units, ends_from_midship, origin, units};
 use super::settings::Settings;
 use crate::hull::{
@@ -292,6 +292,19 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     let heads = reader.positions(&block.heads, what);
     let stations = reader.positions(&lines, "station");
     let (heads, stations) = (heads?, stations?);
+    let Settings { waterline_spacing, units, z_units, .. } = reader.settings;
+    let is_stated =
+        waterline_spacing.is_some() || units.or(*z_units).or(Corner::of(block.corner.trimmed()).unit).is_some();
+    if block.across == Axis::Waterline && !is_stated && are_numbered(&heads) {
+        let message = format!(
+            "waterlines are numbered, '{}' to '{}', and their spacing is not known: taken as 1 {} apart",
+            block.heads[0].trimmed(),
+            block.heads[heads.len() - 1].trimmed(),
+            reader.units.z.as_str()
+        );
+        let remedy = "Give waterline_spacing in the conventions, or heights with their unit";
+        reader.problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
     let across: Vec<f64> = heads.into_iter().map(|p| reader.across(p)).collect();
     let xs: Vec<f64> = stations.into_iter().map(|p| reader.along(p)).collect();
     let mut good = true;
@@ -304,6 +317,17 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     let across_order = order(&across, &block.heads, what, reader.problems);
     let station_order = order(&xs, &lines, "station", reader.problems);
     Some(Placed { xs, across, station_order: station_order?, across_order: across_order? })
+}
+
+/// Whether waterlines have names with numbers that follow each other: WL 1, WL 2, WL 3.
+fn are_numbered(heads: &[Position]) -> bool {
+    let number = |position: &Position| match position.place {
+        Coordinate::Number(number) if position.named => Some(number),
+        _ => None,
+    };
+    let numbers: Option<Vec<f64>> = heads.iter().map(number).collect();
+    let follow = |pair: &[f64]| ((pair[1] - pair[0]).abs() - 1.0).abs() < 1e-9;
+    numbers.is_some_and(|all| all.len() > 2 && all[0].fract() == 0.0 && all.windows(2).all(follow))
 }
 
 /// Puts a block into the table.

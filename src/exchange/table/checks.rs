@@ -3,8 +3,11 @@
 use super::assemble::{SAME, TableReader};
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::Settings;
-use crate::hull::{Cell, Entry, OffsetTable};
+use crate::hull::{Cell, Entry, OffsetTable, StationOffsets};
 use crate::units::counted;
+
+/// Part of the volume that may be below the lowest waterline before it is a warning.
+const BOTTOM: f64 = 0.01;
 
 /// Most missing offsets that are named.
 const MOST_PLACES: usize = 6;
@@ -168,6 +171,19 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
             "Give rows 'stern' and 'stem' below the half-breadths, or [endings]",
         );
     }
+    if let Some((z, share)) = unknown_bottom(table).filter(|(_, share)| *share > BOTTOM) {
+        let message = format!(
+            "the lowest waterline is {z} m above the base line, and no keel is given: what is below it does not count, and is \
+             up to {:.1} % of the volume",
+            100.0 * share
+        );
+        problems.warning(
+            "W315",
+            FilePosition::FILE,
+            message,
+            "Give a row or a column 'keel' with its heights, or the lowest waterlines",
+        );
+    }
     if let Some(highest) = table.closes_above() {
         let breadths = table.stations.iter().filter_map(|station| station.half_breadth(highest));
         let message = format!(
@@ -186,6 +202,25 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
             problems.warning("W307", FilePosition::FILE, message, "");
         }
     }
+}
+
+/// Height of the lowest waterline above the base line \[m\], and what a hull of plumb sides has below it as a part of all, by
+/// trapezoids; none where keels or points are given, or the lowest waterline is on the base line or below it.
+fn unknown_bottom(table: &OffsetTable) -> Option<(f64, f64)> {
+    let lowest = table.waterlines.first().copied().filter(|z| *z > SAME)?;
+    let has_keel = |station: &StationOffsets| station.keel_height.is_some() || station.flat_of_bottom.is_some();
+    if table.point_count() > 0 || table.stations.iter().any(has_keel) {
+        return None;
+    }
+    let trapezoids =
+        |points: &[[f64; 2]]| points.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum();
+    let area = |(j, &z): (usize, &f64)| -> [f64; 2] {
+        let breadths = table.stations.iter().map(|s| [s.station.x, s.half_breadth(j).unwrap_or(0.0)]);
+        [z, trapezoids(&breadths.collect::<Vec<_>>())]
+    };
+    let areas: Vec<[f64; 2]> = table.waterlines.iter().enumerate().map(area).collect();
+    let (below, above): (f64, f64) = (lowest * areas[0][1], trapezoids(&areas));
+    (below > 0.0).then(|| (lowest, below / (below + above)))
 }
 
 /// Stated particulars that contradict the table: a draught above its top, a breadth that differs from twice the largest

@@ -25,6 +25,7 @@
 //! | W309 | a breadth that is not that of the table |
 //! | W310 | a length between perpendiculars that is not that of the table |
 //! | W314 | blank cells among half-breadths |
+//! | W315 | a bottom that the table does not show |
 //! | W320 | something was assumed that changes numbers |
 //! | W351 | a body that is not closed |
 //! | W352 | surfaces that are not read |
