@@ -244,6 +244,29 @@ fn waterlines_that_are_numbered_are_told() {
     quiet(&format!("z [m]{text}"), "");
 }
 
+#[test]
+fn an_end_from_which_stations_are_numbered_is_told() {
+    let text = "station,1,2\n0,0,0\n1,1,2\n2,1,2\n3,0,0\n";
+    let beside = |stations: &str| format!("[table]\nstation_spacing = 3\n{stations}");
+    among(&notes(text, &beside("")), &["W320", "0 is taken as AP", "numbers from FP"]);
+    for stated in ["stations = \"numbers from AP\"", "stations = \"numbers from FP\""] {
+        let found = notes(text, &beside(stated));
+        assert!(!found.iter().any(|note| note.contains("0 is taken as AP")), "{found:?}");
+    }
+}
+
+/// Five stations in 20 m, 5 m broad and 2 m deep, whose headers say nothing, or the wrong thing.
+#[test]
+fn a_hull_is_longer_than_it_is_broad() {
+    let text = "WL,0,5,10,15,20\n0,0,1,1.5,1,0\n1,0,2,2.4,2,0\n2,0,2.1,2.5,2.2,0\n";
+    let turned = "WL,0,1,2\n0,0,0,0\n5,1,2,2.1\n10,1.5,2.4,2.5\n15,1,2,2.2\n20,0,0,0\n";
+    for text in [text.to_owned(), text.replace("WL", ""), turned.to_owned(), turned.replace("WL", "")] {
+        let read = read_table_with("t.csv", text.as_bytes(), None).unwrap();
+        assert_eq!((read.table.stations.len(), read.table.waterlines.len()), (5, 3), "{text}");
+    }
+    among(&notes(turned, ""), &["W320", "the hull would be 2 long, 5 broad and 20 high"]);
+}
+
 /// Dimensions may stand beside a table as in a job.
 #[test]
 fn dimensions_beside_a_table() {

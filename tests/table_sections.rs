@@ -280,7 +280,12 @@ fn units_of_each_direction_by_its_size() {
 fn a_header_that_contradicts_the_numbers() {
     // The first row under 'Station' tapers to both of its ends, as a waterline does.
     let text = "Station,0,5,10,15,20\n1,0,2,3,2,0\n2,0.2,2.5,3,2.5,0.5\n3,0.5,2.8,3,2.8,1\n";
-    among(&notes(text, ""), &["W320", "rows are taken as stations by the first header 'Station'", "rows = "]);
+    among(
+        &notes(text, ""),
+        &["W320", "rows are not taken as stations: the hull would be 2 long, 6 broad and 20 high", "rows = "],
+    );
+    let low = text.replace("0,5,10,15,20", "0,1,2,3,4");
+    among(&notes(&low, ""), &["W320", "rows are taken as stations by the first header 'Station'", "rows = "]);
     let usual = "Station,1,2,3\n0,0,0.2,0.5\n5,2,2.5,2.8\n10,3,3,3\n20,0,0.5,1\n";
     assert!(!notes(usual, "").iter().any(|n| n.contains("by the first header")), "{:?}", notes(usual, ""));
 }

@@ -168,33 +168,54 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings, problems: &mut Proble
         return (rows_of(axis), "by the words of the headers");
     }
     let tapers = tapering(fields);
-    if let Some(axis) = corner.rows {
-        let rows = rows_of(axis);
-        let (here, there) = match rows {
-            Rows::Stations => ("stations", "column"),
-            Rows::Waterlines => ("waterlines", "row"),
-        };
-        // One header over both directions says less than a hull that tapers to its ends.
-        if tapers.is_some_and(|by_numbers| by_numbers != rows) {
-            let message = format!(
-                "rows are taken as {here} by the first header '{}', but the numbers taper to the first and the last {there} only, \
-                 as if the stations stood the other way",
-                fields[0][0].trimmed()
-            );
-            problems.warning(
-                "W320",
-                FilePosition::FILE,
-                message,
-                "Declare rows = \"stations\" or rows = \"waterlines\"",
-            );
+    let (rows, why) = match (corner.rows, tapers) {
+        (Some(axis), _) => (rows_of(axis), "by the words of the headers"),
+        (None, Some(Rows::Stations)) => (Rows::Stations, "because the numbers taper to the first and the last row"),
+        (None, Some(Rows::Waterlines)) => {
+            (Rows::Waterlines, "because the numbers taper to the first and the last column")
         }
-        return (rows, "by the words of the headers");
+        (None, None) => (Rows::Stations, "assumed; the headers do not say it"),
+    };
+    let (turned, here, there) = match rows {
+        Rows::Stations => (Rows::Waterlines, "stations", "column"),
+        Rows::Waterlines => (Rows::Stations, "waterlines", "row"),
+    };
+    let remedy = "Declare rows = \"stations\" or rows = \"waterlines\"";
+    if let Some([length, breadth, depth]) = extents(fields, rows).filter(|[l, b, d]| l < b && b < d) {
+        let message = format!(
+            "rows are not taken as {here}: the hull would be {length} long, {breadth} broad and {depth} high in the units of the file"
+        );
+        problems.warning("W320", FilePosition::FILE, message, remedy);
+        return (turned, "because a hull is longer than it is broad");
     }
-    match tapers {
-        Some(Rows::Stations) => (Rows::Stations, "because the numbers taper to the first and the last row"),
-        Some(Rows::Waterlines) => (Rows::Waterlines, "because the numbers taper to the first and the last column"),
-        None => (Rows::Stations, "assumed; the headers do not say it"),
+    // One header over both directions says less than a hull that tapers to its ends.
+    if corner.rows.is_some() && tapers.is_some_and(|by_numbers| by_numbers != rows) {
+        let message = format!(
+            "rows are taken as {here} by the first header '{}', but the numbers taper to the first and the last {there} only, \
+             as if the stations stood the other way",
+            fields[0][0].trimmed()
+        );
+        problems.warning("W320", FilePosition::FILE, message, remedy);
     }
+    (rows, why)
+}
+
+/// Length, breadth and depth in the numbers of a matrix whose rows are these; none where its headers are no numbers.
+fn extents(fields: &[Vec<Field>], rows: Rows) -> Option<[f64; 3]> {
+    let number = |field: &Field| field.trimmed().replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite());
+    let extent = |all: Option<Vec<f64>>| {
+        let all = all?;
+        let ends = all.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], n| [a.min(*n), b.max(*n)]);
+        (all.len() > 1).then(|| ends[1] - ends[0])
+    };
+    let along_rows = extent(fields.iter().skip(1).map(|row| row.first().and_then(number)).collect())?;
+    let along_columns = extent(fields[0].iter().skip(1).map(number).collect())?;
+    let cells = fields.iter().skip(1).flat_map(|row| row.iter().skip(1)).filter_map(number);
+    let breadth = 2.0 * cells.map(f64::abs).fold(0.0, f64::max);
+    Some(match rows {
+        Rows::Stations => [along_rows, breadth, along_columns],
+        Rows::Waterlines => [along_columns, breadth, along_rows],
+    })
 }
 
 /// What the rows are by the numbers: a hull tapers to its ends; none when they taper both ways or not at all.

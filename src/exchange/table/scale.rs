@@ -272,6 +272,13 @@ pub(super) fn origin(
             1.0
         }
     };
+    let names_end = |p: &Position| matches!(p.place, Coordinate::AftPerpendicular | Coordinate::ForePerpendicular);
+    if settings.stations.is_none() && corner.from.is_none() && !heads.iter().any(names_end) {
+        let message = "stations are numbered, and nothing says from which end: 0 is taken as AP. From FP the hull is turned about, and \
+                       LCB changes its sign";
+        let remedy = "Give stations = \"numbers from AP\" or \"numbers from FP\" in the conventions";
+        problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);
+    }
     if scale.from == From::ForePerpendicular {
         // Without L_PP the last number is AP.
         let from_fp = length.or(spaces.map(|n| n * spacing)).unwrap_or(high * spacing);
