@@ -83,6 +83,11 @@ fn triangles([a, b, c, d]: [[f64; 3]; 4]) -> [[[f64; 3]; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
 
+/// Whether a number of a file is the flag 1.
+fn is_one(number: f64) -> bool {
+    (number - 1.0).abs() < f64::EPSILON
+}
+
 /// Panels as triangles, in the axes of their formats: x forward, y to port, z up.
 pub(in super::super) struct PanelBody {
     /// What the file gives, and what the plane x = 0 mirrors.
@@ -131,7 +136,7 @@ pub(in super::super) fn read_gdf(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFa
         for what in [["ULEN", "GRAV"], ["ISX", "ISY"]] {
             let line = words.line();
             let numbers = [words.number(what[0])?, words.number(what[1])?];
-            planes = numbers.map(|number| number == 1.0);
+            planes = numbers.map(is_one);
             // Names may follow the numbers.
             words.next_line(line);
         }
@@ -176,7 +181,7 @@ pub(in super::super) fn is_nemoh(bytes: &[u8]) -> bool {
     let are_coordinates = |words: &[&str]| words.iter().all(|word| word.parse::<f64>().is_ok());
     matches!(first[..], ["2", "0" | "1"])
         && second.len() == 4
-        && second[0].parse::<f64>().is_ok_and(|number| number == 1.0)
+        && second[0].parse::<f64>().is_ok_and(is_one)
         && are_coordinates(&second[1..])
 }
 
@@ -191,7 +196,7 @@ pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<PanelBody, Vec<Record
     let (mut nodes, mut corners) = (Vec::new(), Vec::new());
     let first = words.line();
     let (dimension, plane) = (words.number("2"), words.number("0 or 1 for the plane of symmetry"));
-    let planes = [false, plane == Some(1.0)];
+    let planes = [false, plane.is_some_and(is_one)];
     if dimension.and(plane).is_none() {
         return body(words.faults, corners, planes);
     }
@@ -217,14 +222,12 @@ pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<PanelBody, Vec<Record
         }
         let line = words.line();
         let mut numbers = [0; 4];
-        for k in 0..4 {
-            let Some(found) = words.count("the number of a corner, or 0") else {
+        for (k, number) in numbers.iter_mut().enumerate() {
+            let found = words.count("the number of a corner, or 0");
+            let Some(found) = found.filter(|found| k > 0 || *found > 0) else {
                 return body(words.faults, corners, planes);
             };
-            if k == 0 && found == 0 {
-                return body(words.faults, corners, planes);
-            }
-            numbers[k] = found;
+            *number = found;
         }
         let Some(panel) = by_number(numbers, &nodes, line, &mut words.faults) else {
             return body(words.faults, corners, planes);

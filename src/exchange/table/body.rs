@@ -392,7 +392,7 @@ fn one_side(mesh: &TriangleMesh, stated: Option<bool>, format: Option<bool>, pro
         }
         _ => 0.0,
     };
-    let Some([least, greatest]) = mesh.bounds() else { return None };
+    let [least, greatest] = mesh.bounds()?;
     if slack > ON_CENTREPLANE * (greatest[1] - least[1]) {
         let message = format!(
             "one side of the body is given, and its inner edge is {:.4} m off y = 0: it is moved there and mirrored. \
