@@ -10,7 +10,7 @@
 //! ```
 //!
 //! over its rows, z the multipliers and v the violations at the net without them: by convexity the objective rises by
-//! no more than the sum over all lines. What one may cost is said in [`super::humps`].
+//! no more than the sum over all lines. What one may cost is said in `fairing::humps`.
 
 use super::bends::{Bend, Line, bends, dead};
 use super::inflections::{Bands, Inflections, minimum_inflections};
