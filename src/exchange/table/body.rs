@@ -6,6 +6,8 @@
 //! it lies. Half a body is mirrored. Triangles are turned outward. Sections of a table lie at x = x_a + L (1 - cos(pi
 //! k/n))/2, closer at the ends, and their points are thinned to [`THINNED`] of the breadth.
 
+pub(super) mod frame;
+
 use std::f64::consts::PI;
 
 use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
@@ -17,11 +19,11 @@ use super::super::subdivision::{SubdivisionProject, is_fbm, is_ftm, read_fbm, re
 use super::outline::{Deck, point, take_off_deck};
 use super::problem::{FilePosition, Problems};
 use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
-use super::settings::{BodyFrame, Settings};
+use super::settings::Settings;
 use super::{ReadTable, TableProblem, sidecar};
-use crate::hull::{BodyPart, MeshLine, StatedParticulars, TriangleMesh};
+use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
 use crate::spline::BsplineSurface;
-use crate::units::counted;
+use frame::{AS_WRITTEN, Given, framed};
 
 /// What points of sections that are left out are off by at most, over the breadth.
 const THINNED: f64 = 2e-5;
@@ -31,20 +33,6 @@ const SECTIONS: usize = 40;
 
 /// The first and the last section lie inside the body by this part of its length.
 const INSIDE: f64 = 1e-5;
-
-/// A body whose ends of an axis differ by less than this part of its size is symmetric about the zero of the axis.
-const SYMMETRIC: f64 = 1e-3;
-
-/// The middle of a body over its extent: up to the first athwartships, from the second on upwards, of one that is not quite
-/// symmetric.
-const NEARLY: f64 = 0.1;
-const NOT_NEARLY: f64 = 0.5;
-
-/// Corners of one side of a body this many times as far from the centreplane as its inner edge belong on it.
-const MOVED: f64 = 1.5;
-
-/// Points nearer to the centreplane than this part of the size of the body are on it.
-const ON_CENTREPLANE: f64 = 1e-6;
 
 /// What triangles leave surfaces by at most, over the longest extent of these.
 const DEVIATION: f64 = 1e-5;
@@ -76,12 +64,18 @@ pub struct ReadBody {
 
 /// What stands in a file.
 enum Shape {
-    Triangles(TriangleMesh),
-    Panels(PanelBody),
+    /// With what their format says.
+    Triangles(TriangleMesh, Given),
     Surfaces(CadSurfaces),
     Net(SubdivisionProject),
     /// What cannot be read.
     Nothing,
+}
+
+impl Shape {
+    fn of_panels(PanelBody { mesh, is_half }: PanelBody) -> Self {
+        Self::Triangles(mesh, Given { axes: Some(AS_WRITTEN), half: Some(is_half), ..Given::plain(1.0) })
+    }
 }
 
 /// The kinds of files, with what reads them.
@@ -99,17 +93,17 @@ fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, BodyReader)> {
     } else if is_iges(bytes) || ends(&[".iges", ".igs"]) {
         Some(("IGES", |bytes| read_iges(bytes).map(Shape::Surfaces)))
     } else if ends(&[".stl"]) || is_stl(bytes) {
-        Some(("STL", |bytes| read_stl(bytes).map(Shape::Triangles)))
+        Some(("STL", |bytes| read_stl(bytes).map(|mesh| Shape::Triangles(mesh, Given::plain(1.0)))))
     } else if is_glb(bytes) || ends(&[".glb"]) {
-        Some(("GLB", |bytes| read_glb(bytes).map(Shape::Triangles)))
+        Some(("GLB", |bytes| read_glb(bytes).map(|mesh| Shape::Triangles(mesh, Given::plain(1.0)))))
     } else if ends(&[".gdf"]) {
-        Some(("GDF", |bytes| read_gdf(bytes).map(Shape::Panels)))
+        Some(("GDF", |bytes| read_gdf(bytes).map(Shape::of_panels)))
     } else if ends(&[".pnl"]) {
-        Some(("PNL", |bytes| read_pnl(bytes).map(Shape::Panels)))
+        Some(("PNL", |bytes| read_pnl(bytes).map(Shape::of_panels)))
     } else if ends(&[".mar"]) || is_nemoh(bytes) {
-        Some(("NEMOH", |bytes| read_nemoh(bytes).map(Shape::Panels)))
+        Some(("NEMOH", |bytes| read_nemoh(bytes).map(Shape::of_panels)))
     } else if ends(&[".obj"]) || is_obj(bytes) {
-        Some(("OBJ", |bytes| read_obj(bytes).map(Shape::Triangles)))
+        Some(("OBJ", |bytes| read_obj(bytes).map(|mesh| Shape::Triangles(mesh, Given::plain(1.0)))))
     } else {
         None
     }
@@ -140,15 +134,9 @@ pub fn read_body<'a>(
         return None;
     }
     let meshes = match shape {
-        Shape::Triangles(mesh) => {
+        Shape::Triangles(mesh, given) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
-            framed(vec![mesh], &settings, &Given::plain(1.0), &mut problems)
-        }
-        Shape::Panels(PanelBody { mesh, is_half }) => {
-            let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
-            problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
-            let given = Given { axes: Some(AS_WRITTEN), half: Some(is_half), ..Given::plain(1.0) };
             framed(vec![mesh], &settings, &given, &mut problems)
         }
         Shape::Net(SubdivisionProject { name, stated, unit, net }) => {
@@ -235,247 +223,6 @@ fn extent(surfaces: &[BsplineSurface<4>]) -> f64 {
         points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) - least
     };
     (0..3).map(along).fold(0.0, f64::max)
-}
-
-/// What a file says of its body.
-pub(super) struct Given {
-    /// Its unit \[m\].
-    pub(super) unit: f64,
-    /// The axes, where the format has them.
-    pub(super) axes: Option<[(usize, f64); 3]>,
-    /// Whether one side is given, where the format says so.
-    pub(super) half: Option<bool>,
-    /// Triangles over surfaces, each for itself.
-    pub(super) surfaces: bool,
-}
-
-impl Given {
-    /// A file that says nothing but its unit \[m\].
-    pub(super) fn plain(unit: f64) -> Self {
-        Self { unit, axes: None, half: None, surfaces: false }
-    }
-}
-
-/// The axes of a file whose x is forward, y to port and z up.
-const AS_WRITTEN: [(usize, f64); 3] = [(0, 1.0), (1, 1.0), (2, 1.0)];
-
-/// How points of a file come into the ship's frame.
-pub(super) struct Placement {
-    axes: [(usize, f64); 3],
-    unit: f64,
-    slack: f64,
-    origin: [f64; 2],
-}
-
-impl Placement {
-    /// By the bounds of the points, the settings and what the file says; none, with a problem, when the axes cannot be
-    /// told.
-    pub(super) fn of(
-        bounds: [[f64; 3]; 2],
-        settings: &Settings,
-        given: &Given,
-        problems: &mut Problems,
-    ) -> Option<Self> {
-        let BodyFrame { axes, up, scale, x_origin, z_origin, .. } = settings.frame;
-        let known = axes.or(if up.is_none() { given.axes } else { None });
-        let axes = known.or_else(|| found_axes(bounds, up, problems))?;
-        let unit = settings.units.map_or(given.unit, |units| units.metres(1.0)) * scale.unwrap_or(1.0);
-        let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
-        let origin = [x_origin, z_origin].map(|place| place.unwrap_or(0.0));
-        Some(Self { axes, unit, slack: ON_CENTREPLANE * size, origin })
-    }
-
-    /// Points nearer to the centreplane than a millionth of the size are on it.
-    pub(super) fn place(&self, corner: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = self.axes.map(|(axis, sign)| sign * self.unit * corner[axis]);
-        [x + self.origin[0], if y.abs() <= self.slack { 0.0 } else { y }, z + self.origin[1]]
-    }
-}
-
-/// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward. All meshes are
-/// of one body and are moved alike; a second one comes from surfaces.
-fn framed(
-    mut meshes: Vec<TriangleMesh>,
-    settings: &Settings,
-    given: &Given,
-    problems: &mut Problems,
-) -> Vec<TriangleMesh> {
-    let Some(bounds) = meshes[0].bounds().filter(|_| !problems.any_errors()) else { return meshes };
-    let Some(placement) = Placement::of(bounds, settings, given, problems) else { return meshes };
-    let BodyFrame { x_origin, z_origin, .. } = settings.frame;
-    let surfaces = given.surfaces;
-    let place = |corner: [f64; 3]| placement.place(corner);
-    let mut half = None;
-    for (k, mesh) in meshes.iter_mut().enumerate() {
-        let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
-        *mesh = TriangleMesh::from_corners(corners.into_iter());
-        if k == 0 {
-            half = one_side(mesh, settings.frame.half, given.half, problems);
-        }
-        if let Some(slack) = half {
-            *mesh = mesh.mirrored(slack);
-        }
-        if surfaces {
-            *mesh = without_top(mesh);
-        }
-        let (oriented, turned) = std::mem::take(mesh).oriented();
-        *mesh = oriented;
-        if turned > 0 && k == 0 && !surfaces {
-            problems.note(format!("{} turned outward", counted(turned, "triangle")));
-        }
-    }
-    let Some([least, greatest]) = meshes[0].bounds() else { return meshes };
-    let length = greatest[0] - least[0];
-    if !(0.01..=1e4).contains(&length) {
-        let message = format!("the body is {length} m long");
-        problems.error(
-            "E351",
-            FilePosition::FILE,
-            message,
-            "Say units or scale in a TOML file of the same name beside it",
-        );
-    }
-    if x_origin.is_none() && least[0].abs() > 0.2 * length {
-        meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[0] -= least[0]);
-        let message = format!(
-            "x of the file runs from {:.3} to {:.3} m; its aftmost point is taken as AP. x_origin in the TOML beside it says \
-             otherwise",
-            least[0], greatest[0]
-        );
-        problems.warning("W320", FilePosition::FILE, message, "");
-    }
-    let depth = greatest[2] - least[2];
-    if z_origin.is_none() && least[2].abs() > 0.2 * depth {
-        let message = format!(
-            "the lowest point is {:.3} m from z = 0 of the file, from where draughts count; z_origin in the TOML beside it moves it",
-            least[2]
-        );
-        problems.warning("W320", FilePosition::FILE, message, "");
-    }
-    let open = if surfaces { Vec::new() } else { meshes[0].open_edges() };
-    if !open.is_empty() {
-        let lowest = open.iter().flatten().map(|&k| meshes[0].vertices[k][2]).fold(f64::INFINITY, f64::min);
-        let message = format!(
-            "{} open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
-            counted(open.len(), "edge")
-        );
-        problems.warning("W351", FilePosition::FILE, message, "");
-    }
-    meshes
-}
-
-/// Of a body of which one side is given, within how much of the centreplane its corners belong on it \[m\]; none of a
-/// whole one. `stated` stands before what the `format` says, and both before how the body lies.
-fn one_side(mesh: &TriangleMesh, stated: Option<bool>, format: Option<bool>, problems: &mut Problems) -> Option<f64> {
-    let part = mesh.part();
-    let known = stated.or(format);
-    if known == Some(false) {
-        if stated.is_none() && part != BodyPart::Whole {
-            let message = "the body is on one side of y = 0, and the file names no plane of symmetry there: it is taken as whole. \
-                           --body half (body in the TOML beside it) says otherwise";
-            problems.warning("W320", FilePosition::FILE, message.to_owned(), "");
-        }
-        return None;
-    }
-    let slack = match part {
-        BodyPart::Half { inner } => MOVED * inner.abs(),
-        BodyPart::Whole if known.is_none() => return None,
-        BodyPart::BesideWall if known.is_none() => {
-            let message = "the body lies on one side of y = 0 and has a wall there: one half of a hull, or a whole body beside it";
-            problems.error(
-                "E351",
-                FilePosition::FILE,
-                message.to_owned(),
-                "Say --body half or --body whole (body in the TOML beside it)",
-            );
-            return None;
-        }
-        _ => 0.0,
-    };
-    let [least, greatest] = mesh.bounds()?;
-    if slack > ON_CENTREPLANE * (greatest[1] - least[1]) {
-        let message = format!(
-            "one side of the body is given, and its inner edge is {:.4} m off y = 0: it is moved there and mirrored. \
-             --body whole (body in the TOML beside it) says otherwise",
-            slack / MOVED
-        );
-        problems.warning("W320", FilePosition::FILE, message, "");
-    } else {
-        problems.note("one side of the body is given; it is mirrored".to_owned());
-    }
-    Some(slack)
-}
-
-/// A body without what is level at its top: an untrimmed deck is wider than the hull, and closes nothing that counts.
-fn without_top(mesh: &TriangleMesh) -> TriangleMesh {
-    let Some([least, greatest]) = mesh.bounds() else { return mesh.clone() };
-    let top = greatest[2] - ON_CENTREPLANE * (greatest[2] - least[2]);
-    let kept: Vec<[[f64; 3]; 3]> = mesh.corners().filter(|t| t.iter().any(|point| point[2] < top)).collect();
-    TriangleMesh::from_corners(kept.into_iter())
-}
-
-/// The axes of a body by its extents; none, with a problem, when they cannot be told.
-fn found_axes(
-    [least, greatest]: [[f64; 3]; 2],
-    up: Option<(usize, f64)>,
-    problems: &mut Problems,
-) -> Option<[(usize, f64); 3]> {
-    let extent = |k: usize| greatest[k] - least[k];
-    if let Some((up, sign)) = up {
-        let (a, b) = ((up + 1) % 3, (up + 2) % 3);
-        // Right-handed: port is up x forward.
-        return Some(if extent(a) >= extent(b) {
-            [(a, 1.0), (b, sign), (up, sign)]
-        } else {
-            [(b, 1.0), (a, -sign), (up, sign)]
-        });
-    }
-    let long = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b)).then(b.cmp(&a)))?;
-    let size = extent(long);
-    let across = |k: usize| {
-        let near = |value: f64| value.abs() <= SYMMETRIC * size;
-        near(least[k] + greatest[k]) || near(least[k]) || near(greatest[k])
-    };
-    let symmetric = |k: usize| (least[k] + greatest[k]).abs() <= SYMMETRIC * size;
-    // A body whose centreline is a little off, or whose sides differ, is nearer to symmetry across than up.
-    let off = |k: usize| (least[k] + greatest[k]).abs() / extent(k).max(f64::MIN_POSITIVE);
-    let is_nearly = |[across, up]: [usize; 2]| off(across) <= NEARLY && off(up) >= NOT_NEARLY;
-    let names = ["x", "y", "z"];
-    // The right-handed frame in which the longest axis is forward and the third is up.
-    let (y, z) = ((long + 1) % 3, (long + 2) % 3);
-    let frame = match [y, z].map(|k| (symmetric(k), across(k))) {
-        [(true, _), (false, _)] => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        [(false, _), (true, _)] => [(long, 1.0), (z, -1.0), (y, 1.0)],
-        [(false, true), (false, false)] if !is_nearly([z, y]) => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        [(false, false), (false, true)] if !is_nearly([y, z]) => [(long, 1.0), (z, -1.0), (y, 1.0)],
-        _ if is_nearly([y, z]) => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        _ if is_nearly([z, y]) => [(long, 1.0), (z, -1.0), (y, 1.0)],
-        // Both may be: what is usual.
-        [(a, true), (b, true)] if a == b => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        _ => {
-            let message = format!(
-                "the axes are ambiguous: x runs from {} to {}, y from {} to {}, z from {} to {}",
-                least[0], greatest[0], least[1], greatest[1], least[2], greatest[2]
-            );
-            let remedy = "Say axes = \"x y z\" (the file's axis for forward, port and up) in a TOML file of the same name beside it";
-            problems.error("E351", FilePosition::FILE, message, remedy);
-            return None;
-        }
-    };
-    let across = frame[1].0;
-    if !symmetric(across) && is_nearly([across, frame[2].0]) {
-        let message = format!(
-            "{} runs from {} to {}: the body is not symmetric about the centreplane, and is taken as it is",
-            names[across], least[across], greatest[across]
-        );
-        problems.warning("W320", FilePosition::FILE, message, "");
-    }
-    if frame.map(|(axis, _)| axis) != [0, 1, 2] {
-        let written = frame.map(|(axis, sign)| format!("{}{}", if sign < 0.0 { "-" } else { "" }, names[axis]));
-        let message = format!("axes are taken as \"{}\" by the extents of the body", written.join(" "));
-        problems.warning("W320", FilePosition::FILE, message, "");
-    }
-    Some(frame)
 }
 
 /// Lines whose ends are within `slack` of each other as one, the nearest ends first; each end has one mate at most. Of

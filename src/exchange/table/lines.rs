@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 
 use super::super::cad::{CadCurve, CadSurfaces, is_iges, read_iges};
-use super::body::{Given, Placement};
+use super::body::frame::{Given, Placement};
 use super::outline::point;
 use super::problem::{FilePosition, Problems};
 use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};

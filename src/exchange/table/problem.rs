@@ -17,7 +17,7 @@
 //! | E313 | a table with too little in it |
 //! | E315 | a length that is no ship's |
 //! | E350 | a record of a body that cannot be read |
-//! | E351 | a body whose size or axes cannot be, or of which it is not known whether it is whole |
+//! | E351 | a body of impossible size or axes, or not known to be whole |
 //! | E353 | hydrostatics that no body can have |
 //! | W306 | no profiles of stem and stern |
 //! | W307 | few waterlines below the draught |
