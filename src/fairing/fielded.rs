@@ -79,8 +79,8 @@ pub(super) struct TableField<'a> {
     /// Points of sections, where the table has these.
     points: Option<Points>,
     field: ChartedField,
-    /// Below it the table says nothing of the volume: the lowest waterline with breadth \[m\].
-    lowest: f64,
+    /// Below it the table says nothing of the volume: the lowest waterline with breadth \[m\]; none where all is said.
+    lowest: Option<f64>,
     /// The greatest half-breadth of the table \[m\].
     greatest: f64,
     /// What residuals say nothing of the fit below: the noise of the table, or its last digit \[m\].
@@ -127,7 +127,7 @@ impl<'a> TableField<'a> {
         let greatest = seen.readings.iter().fold(0.0f64, |most, cell| most.max(cell.y));
         // With a keel, or points of sections, it is all said.
         let all = !is_level || points.is_some() || table.stations.iter().any(|station| station.keel_height.is_some());
-        let lowest = if all { f64::NEG_INFINITY } else { seen.waterlines[0].heights[0] };
+        let lowest = (!all).then(|| seen.waterlines[0].heights[0]);
         Some(Self { table, fitted, rules, marked, points, field, lowest, greatest, least })
     }
 
@@ -195,7 +195,7 @@ impl<'a> TableField<'a> {
         }
         let top = surface.hull.reference_height();
         let above = |hull: &Hull| {
-            let below = if self.lowest < top { Functional::Volume.value(hull, self.lowest) } else { 0.0 };
+            let below = self.lowest.filter(|z| *z < top).map_or(0.0, |z| Functional::Volume.value(hull, z));
             Functional::Volume.value(hull, top) - below
         };
         let (own, given) = match &self.points {

@@ -165,12 +165,11 @@ impl TriangleMesh {
     #[must_use]
     pub fn part(&self) -> BodyPart {
         let Some([least, greatest]) = self.bounds() else { return BodyPart::Whole };
-        let [inner, outer] =
-            if least[1] + greatest[1] >= 0.0 { [least[1], greatest[1]] } else { [-greatest[1], -least[1]] };
+        let side = if least[1] + greatest[1] >= 0.0 { 1.0 } else { -1.0 };
+        let [inner, outer] = [f64::min, f64::max].map(|pick| pick(side * least[1], side * greatest[1]));
         if outer <= 0.0 || inner.abs() > NEAR * outer {
             return BodyPart::Whole;
         }
-        let side = if least[1] + greatest[1] >= 0.0 { 1.0 } else { -1.0 };
         let near = |point: &[f64; 3]| (side * point[1] - inner).abs() <= NEAR * outer;
         // Areas as seen from the side, of what stands on the centreplane and of the rest.
         let (mut wall, mut skin) = (0.0, 0.0);

@@ -5,7 +5,8 @@
 //!
 //! ```text
 //! V = int y n_y dS,   M_x = int x y n_y dS,   M_z = int z y n_y dS,
-//! A_W = int y dx,   moments int x y dx, int x^2 y dx, int y^2/2 dx, int y^3/3 dx   along the waterline,
+//! A_W = int y dx,   along the waterline;
+//! moments int x y dx, int x^2 y dx, int y^2/2 dx, int y^3/3 dx;
 //! I_T = int y^3/3 dx - (int y^2/2 dx)^2 / A_W,
 //! A(x) = int y dz   along the section.
 //! ```
