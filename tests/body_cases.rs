@@ -61,10 +61,25 @@ fn a_row_of_vertices_at_the_waterline_may_have_errors_of_rounding() {
 
 #[test]
 fn skins_that_no_hull_has_are_refused() {
-    for name in ["bulkheads.stl", "twice.stl"] {
-        let error = row(name, 3.0).unwrap_err().to_string();
-        assert!(error.contains("E353") && error.contains("displacement volume"), "{name}: {error}");
+    let error = row("twice.stl", 3.0).unwrap_err().to_string();
+    assert!(error.contains("E353") && error.contains("displacement volume"), "{error}");
+}
+
+#[test]
+fn shells_inside_add_nothing() {
+    for (name, count) in [("bulkheads.stl", "4 triangles"), ("tank-inside.stl", "12 triangles")] {
+        assert!((row(name, 3.0).unwrap().displacement_volume / 1800.0 - 1.0).abs() < 1e-9, "{name}");
+        let output = program(&["hydro", &case(name).display().to_string(), "--draughts", "3"]);
+        let warning = format!("{count} of shells inside the others left out");
+        assert!(output.status.success() && stderr(&output).contains(&warning), "{name}: {}", stderr(&output));
     }
+}
+
+/// A box with a keel of 15 x 1 x 4 m whose upper half is inside.
+#[test]
+fn shells_that_reach_into_others_are_named() {
+    let output = program(&["hydro", &case("skeg-overlaps.stl").display().to_string(), "--draughts", "3"]);
+    assert!(stderr(&output).contains("shells of 12 triangles reach into others"), "{}", stderr(&output));
 }
 
 #[test]

@@ -53,4 +53,4 @@ pub use section::{Branch, Cut, Face, Section};
 pub use solid::{Edge, Solid, SolidFace};
 pub use subdivision::{NetEdge, NetFace, NetLayer, NetPointKind, SubdivisionNet};
 pub use table_form::{Kept, Order, Program, Rows, SideKind, SideLine, StationDatum, TableForm, TableLayout};
-pub use triangles::{BodyPart, MeshLine, TriangleMesh, triangle_area};
+pub use triangles::{BodyPart, InnerShells, MeshLine, TriangleMesh, triangle_area};

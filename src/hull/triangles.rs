@@ -5,7 +5,10 @@
 //! one line or none, and lines end on edges that two triangles share. Sections of closed meshes are therefore closed
 //! loops at every X, without tolerances.
 
+mod shells;
 mod surfaces;
+
+pub use shells::InnerShells;
 
 use super::mesh::{MeshReport, measure};
 use super::vertices::Known;

@@ -2,7 +2,7 @@
 
 use super::super::problem::{FilePosition, Problems};
 use super::super::settings::{BodyFrame, Settings};
-use crate::hull::{BodyPart, TriangleMesh};
+use crate::hull::{BodyPart, InnerShells, TriangleMesh};
 use crate::units::counted;
 
 /// A body whose ends of an axis differ by less than this part of its size is symmetric about the zero of the axis.
@@ -105,6 +105,9 @@ pub(in super::super) fn framed(
         if turned > 0 && k == 0 && !surfaces {
             problems.note(format!("{} turned outward", counted(turned, "triangle")));
         }
+        if !surfaces {
+            *mesh = without_inner(mesh, problems);
+        }
     }
     let Some([least, greatest]) = meshes[0].bounds() else { return meshes };
     let length = greatest[0] - least[0];
@@ -144,6 +147,26 @@ pub(in super::super) fn framed(
         problems.warning("W351", FilePosition::FILE, message, "");
     }
     meshes
+}
+
+/// A mesh without the shells inside others.
+fn without_inner(mesh: &mut TriangleMesh, problems: &mut Problems) -> TriangleMesh {
+    let (mesh, InnerShells { inside, crossing }) = std::mem::take(mesh).without_inner_shells();
+    if inside > 0 {
+        let message = format!(
+            "{} of shells inside the others left out: tanks, decks and bulkheads add nothing to the body",
+            counted(inside, "triangle")
+        );
+        problems.warning("W320", FilePosition::FILE, message, "");
+    }
+    if crossing > 0 {
+        let message = format!(
+            "shells of {} reach into others; what they share counts twice in volume and areas",
+            counted(crossing, "triangle")
+        );
+        problems.warning("W351", FilePosition::FILE, message, "Unite the shells to one skin");
+    }
+    mesh
 }
 
 /// Of a body of which one side is given, within how much of the centreplane its corners belong on it \[m\]; none of a
