@@ -133,16 +133,11 @@ pub(super) fn constraints(
 /// Rules, and what they cost where that is asked for (`priced`); one that does not bind costs nothing.
 pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Faired, priced: bool) -> Vec<HeldRule> {
     let multipliers = &faired.solved.solution.multipliers;
-    let problem = &faired.program.problem;
     let list = settings.rules.iter().enumerate();
     list.map(|(k, rule)| {
         let own = |name: RowName| name == RowName::Rule(k);
         let at: Vec<usize> = faired.rows(own).collect();
-        let binds = |row: usize| {
-            let y = problem.rows.dot(row, &faired.solved.solution.x);
-            (y - problem.lower[row]).min(problem.upper[row] - y) <= BINDING * (1.0 + y.abs())
-        };
-        let binding = at.iter().filter(|&&row| binds(row)).count();
+        let binding = at.iter().filter(|&&row| faired.binds(row)).count();
         let largest = at.iter().fold(0.0_f64, |most, &row| most.max(multipliers[row].abs()));
         let violation = faired
             .rules
@@ -160,6 +155,13 @@ pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Fai
 }
 
 impl Faired {
+    /// Whether the answer is at a limit of a row ([`BINDING`]).
+    fn binds(&self, row: usize) -> bool {
+        let problem = &self.program.problem;
+        let y = problem.rows.dot(row, &self.solved.solution.x);
+        (y - problem.lower[row]).min(problem.upper[row] - y) <= BINDING * (1.0 + y.abs())
+    }
+
     /// What rows cost \[m\]: how much the root of the mean square of the moves falls when they are dropped; not a number
     /// where the program without them was not solved.
     #[must_use]
@@ -176,20 +178,20 @@ impl Faired {
     }
 
     /// [`Faired::price_of`] each of the first `count` constraints of the whole hull: one solver, one row opened after
-    /// the other; not a number where the program was not solved.
+    /// the other. One that does not bind costs nothing; not a number where the program was not solved.
     #[must_use]
     pub fn prices_of_constraints(&self, model: &Model, count: usize, solver: &mut RepeatedSolver<'_>) -> Vec<f64> {
         let price = |k: usize| {
             let mut problem = self.program.problem.clone();
             let own: Vec<usize> = self.rows(|name| name == RowName::Constraint(k)).collect();
-            if own.is_empty() {
+            // What is smoothed is not moved for a target that is not held.
+            let less = self.without.iter().find(|(other, _)| *other == k);
+            if less.is_none() && !own.iter().any(|&row| self.binds(row)) {
                 return Some(0.0);
             }
             for row in own {
                 (problem.lower[row], problem.upper[row]) = (f64::NEG_INFINITY, f64::INFINITY);
             }
-            // What is smoothed is not moved for a target that is not held.
-            let less = self.without.iter().find(|(other, _)| *other == k);
             less.into_iter().for_each(|(_, less)| problem.linear.iter_mut().zip(less).for_each(|(b, more)| *b += more));
             let mut solution = solver.solve(&problem).ok()?;
             if solution.status != Status::Optimal {

@@ -25,8 +25,9 @@ const EQUALITY_RATIO: f64 = 0.1;
 const EQUALITY_WEIGHTS: [f64; 2] = [1e8, 1e13];
 /// Relative lift of the diagonal at first and when the factorisation fails.
 const LIFTS: [f64; 5] = [1e-15, 1e-13, 1e-11, 1e-9, 1e-7];
-/// The primal regularisation, in units of the mean diagonal of P.
-const PROXIMAL: f64 = 1e-11;
+/// The primal regularisation d, in units of the mean diagonal of P. Refinement takes d / (d + e) off an error in a direction of
+/// curvature e: with 1e-11 a net of 6056 values took 30 iterations more.
+const PROXIMAL: f64 = 1e-14;
 /// Most rounds of refinement.
 const ROUNDS: usize = 3;
 
