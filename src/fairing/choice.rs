@@ -13,7 +13,7 @@
 
 use super::model::{Limit, Reduced, value};
 use super::program::Program;
-use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
+use crate::qp::{Interior, Problem, ProblemError, Settings, SparseRows, Status};
 
 /// Most iterations of a program that is tried: what takes more has next to nothing within its limits (those that are had
 /// take 47 at most on the shared tables).
@@ -26,14 +26,15 @@ const ACCURACY: f64 = 1e-7;
 const KEEPS: f64 = 0.02;
 
 /// Whether each of the `lines`, with these limits beside the rows of a program, is worth its one of `prices` \[m^2\]; none when that
-/// was not found. `net` meets the rows of the program.
+/// was not found. `net` meets the rows of the program. The second is a point well
+/// inside the limits: rows and variables of the program, and then the rows of the lines.
 pub(super) fn worth_it(
     (program, reduced): (&Program, &Reduced),
     net: &[f64],
-    lines: &[&[Limit]],
+    lines: &[Vec<&Limit>],
     prices: &[f64],
     settings: &Settings,
-) -> Result<Option<Vec<bool>>, ProblemError> {
+) -> Result<(Option<Vec<bool>>, Option<Interior>), ProblemError> {
     let old = &program.problem;
     let (n, count) = (old.linear.len(), lines.len());
     let widened = |rows: &SparseRows| {
@@ -52,7 +53,7 @@ pub(super) fn worth_it(
     };
     for (l, limits) in (n..).zip(lines) {
         problem.quadratic.push([(l, 0.0)]);
-        for limit in *limits {
+        for limit in limits {
             let missed = missed(limit, net);
             let (row, offset) = reduced.row(&limit.row);
             problem.rows.push(row.into_iter().chain([(l, missed)]).filter(|(_, value)| *value != 0.0));
@@ -65,7 +66,16 @@ pub(super) fn worth_it(
     }
     let answer = problem.solve(&Settings { tolerance: ACCURACY, proof: false, ..settings.clone() })?;
     let parts = (answer.status == Status::Optimal).then_some(&answer.x[n..]);
-    Ok(parts.map(|parts| parts.iter().map(|part| *part <= KEEPS).collect()))
+    let chosen = parts.map(|parts| parts.iter().map(|part| *part <= KEEPS).collect());
+    Ok((chosen, answer.interior.map(|point| without_parts(point, n, old.rows.row_count(), lines))))
+}
+
+/// A point without what the lines keep: the variables after the first `n`, and the last row of each line.
+fn without_parts(Interior { mut x, rows }: Interior, n: usize, old: usize, lines: &[Vec<&Limit>]) -> Interior {
+    x.truncate(n);
+    let is_sign = lines.iter().flat_map(|limits| limits.iter().map(|_| true).chain([false]));
+    let kept = std::iter::repeat_n(true, old).chain(is_sign);
+    Interior { x, rows: rows.into_iter().zip(kept).filter_map(|(row, kept)| kept.then_some(row)).collect() }
 }
 
 /// By how much a net is below (> 0) or above (< 0) a limit.

@@ -32,7 +32,7 @@ use super::program::{Program, RowName, Solved, Wishes};
 use super::smoothing::{Smoothed, Smoother};
 use super::strength::far_above;
 use crate::numeric::SymmetricBand;
-use crate::qp::{ProblemError, Settings};
+use crate::qp::{Interior, ProblemError, Settings};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -126,8 +126,69 @@ struct Hump {
 /// A hump: index of its line, and its own.
 type Place = (usize, usize);
 
-/// The limits of the places of each hump.
-type Parts = BTreeMap<Place, Vec<Limit>>;
+/// A sign at a place of a hump.
+struct Sign {
+    /// Place along the line.
+    at: usize,
+    positive: bool,
+    limit: Limit,
+}
+
+impl Sign {
+    /// What it is known by, with the hump that has it.
+    fn key(&self, (line, _): Place) -> SignKey {
+        (line, self.at, self.positive)
+    }
+}
+
+/// The signs at the places of each hump.
+type Parts = BTreeMap<Place, Vec<Sign>>;
+
+/// Line and place of a sign, and which it is.
+type SignKey = (usize, usize, bool);
+
+/// Slack and multiplier of the upper and of the lower limit of a row.
+type Sides = Option<[[f64; 2]; 2]>;
+
+/// What the program of the signs starts from: a point of the last of the same rows.
+#[derive(Default)]
+struct Memory {
+    /// Control values; none without a program.
+    x: Vec<f64>,
+    /// Of the rows that are no signs, in their order.
+    others: Vec<Sides>,
+    /// Of signs.
+    signs: BTreeMap<SignKey, Sides>,
+}
+
+impl Memory {
+    /// A start for a program with these rows, those of signs by their keys.
+    fn start(&self, keys: &[Option<SignKey>]) -> Option<Interior> {
+        let others = keys.iter().filter(|key| key.is_none()).count();
+        if self.x.is_empty() || others != self.others.len() {
+            return None;
+        }
+        let mut others = self.others.iter();
+        let row = |key: &Option<SignKey>| match key {
+            None => others.next().copied().flatten(),
+            Some(key) => self.signs.get(key).copied().flatten(),
+        };
+        Some(Interior { x: self.x.clone(), rows: keys.iter().map(row).collect() })
+    }
+
+    /// Takes the point of a program with these rows.
+    fn take(&mut self, interior: Option<Interior>, keys: impl Iterator<Item = Option<SignKey>>) {
+        let Some(Interior { x, rows }) = interior else { return };
+        self.x = x;
+        self.others.clear();
+        for (key, sides) in keys.zip(rows) {
+            match key {
+                None => self.others.push(sides),
+                Some(key) => drop(self.signs.insert(key, sides)),
+            }
+        }
+    }
+}
 
 /// What each hump costs at most \[m^2\].
 type Charges = BTreeMap<Place, f64>;
@@ -152,7 +213,8 @@ impl Question<'_> {
     pub(super) fn run(&self, free: &Solved) -> Result<Fewer, ProblemError> {
         let inverse = self.likely.factor.inverse_band();
         let lines: Vec<Asked> = self.lines.iter().map(|line| self.line(line, &free.net, &inverse)).collect();
-        let mut found = self.priced(self.price, lines.clone(), free, &|_| true)?;
+        let mut memory = Memory::default();
+        let mut found = self.priced(self.price, lines.clone(), free, (&|_| true, &mut memory))?;
         let Some(factor) = self.near_least.filter(|_| self.sigma <= self.least_tolerance) else { return Ok(found) };
         let least = self.lines.iter().filter_map(|line| line.least.as_ref()).map(|least| least.count).sum();
         let count = |found: &Fewer| self.counted(&lines, found.accepted.as_ref().map_or(&free.net, |a| &a.1.net));
@@ -162,7 +224,8 @@ impl Question<'_> {
         while price <= DEAREST && !is_few(counted) {
             // Signs that leave too many are not worth a program while the price can rise.
             let is_last = price * DEARER > DEAREST;
-            let mut next = self.priced(price, lines.clone(), free, &|left| is_last || is_few(left))?;
+            let is_worth_it = |left| is_last || is_few(left);
+            let mut next = self.priced(price, lines.clone(), free, (&is_worth_it, &mut memory))?;
             price *= DEARER;
             next.programs += found.programs;
             next.iterations += found.iterations;
@@ -195,7 +258,7 @@ impl Question<'_> {
         price: f64,
         mut asked: Vec<Asked>,
         free: &Solved,
-        is_worth_it: &dyn Fn([usize; 2]) -> bool,
+        (is_worth_it, memory): (&dyn Fn([usize; 2]) -> bool, &mut Memory),
     ) -> Result<Fewer, ProblemError> {
         let mut found = Fewer::with_least(self.lines, price);
         let mut choices = 0;
@@ -203,30 +266,31 @@ impl Question<'_> {
             let signs: Vec<Option<Vec<i8>>> = asked.iter().map(|line| line.signs(price)).collect();
             let mut parts = Parts::new();
             for (k, (line, signs)) in asked.iter().zip(&signs).enumerate() {
-                for (hump, limit) in signs.iter().flat_map(|signs| line.limits(signs, &free.net)) {
-                    parts.entry((k, hump)).or_default().push(limit);
+                for (hump, sign) in signs.iter().flat_map(|signs| line.limits(signs, &free.net)) {
+                    parts.entry((k, hump)).or_default().push(sign);
                 }
             }
             if parts.is_empty() {
                 break;
             }
+            let count = |(line, signs): (&Asked, &Option<Vec<i8>>)| {
+                signs.as_ref().map_or_else(|| line.count(), |signs| changes(signs))
+            };
+            // What is given back only adds to what is left.
+            let left = self.sums(asked.iter().zip(&signs).map(count));
+            if found.accepted.is_none() && !is_worth_it(left) {
+                break;
+            }
             if choices < CHOICES {
                 choices += 1;
                 found.programs += 1;
-                match self.choose(price, &parts, &free.net, &mut asked)? {
+                match self.choose(price, &parts, (&free.net, memory), &mut asked)? {
                     None => break,
                     Some(true) => continue,
                     Some(false) => (),
                 }
             }
-            let count = |(line, signs): (&Asked, &Option<Vec<i8>>)| {
-                signs.as_ref().map_or_else(|| line.count(), |signs| changes(signs))
-            };
-            let left = self.sums(asked.iter().zip(&signs).map(count));
-            if found.accepted.is_none() && !is_worth_it(left) {
-                break;
-            }
-            let (program, solved, charges) = self.solve(&parts, &free.net)?;
+            let (program, solved, charges) = self.solve(&parts, (&free.net, memory))?;
             found.programs += 1;
             found.iterations += solved.solution.iterations;
             let again = if solved.is_optimal() {
@@ -252,31 +316,47 @@ impl Question<'_> {
         &self,
         price: f64,
         parts: &Parts,
-        net: &[f64],
+        (net, memory): (&[f64], &mut Memory),
         asked: &mut [Asked],
     ) -> Result<Option<bool>, ProblemError> {
         let moved = self.moved();
         let program = Program::new(self.model, self.smoother, self.lambda, self.wishes, None);
-        let limits: Vec<&[Limit]> = parts.values().map(Vec::as_slice).collect();
+        let limits: Vec<Vec<&Limit>> =
+            parts.values().map(|signs| signs.iter().map(|sign| &sign.limit).collect()).collect();
         let square = |&(k, hump): &Place| if asked[k].humps[hump].new { moved } else { 0.0 } + self.sigma * self.sigma;
         let prices: Vec<f64> = parts.keys().map(|place| price * square(place)).collect();
-        let chosen = worth_it((&program, &self.smoother.reduced), net, &limits, &prices, self.solver)?;
+        let (chosen, interior) = worth_it((&program, &self.smoother.reduced), net, &limits, &prices, self.solver)?;
+        let signs = parts.iter().flat_map(|(&place, signs)| signs.iter().map(move |sign| Some(sign.key(place))));
+        let keys = program.names.iter().map(|_| None).chain(signs);
+        memory.take(interior, keys);
         let Some(chosen) = chosen else { return Ok(None) };
         let gone = parts.keys().zip(chosen).filter(|(_, worth)| !worth);
         Ok(Some(give_back(asked, gone.map(|(&place, _)| place))))
     }
 
     /// The program with signs, its answer, and what each hump is charged \[m^2\].
-    fn solve(&self, parts: &Parts, net: &[f64]) -> Result<(Program, Solved, Charges), ProblemError> {
-        let bends: Vec<Limit> = parts.values().flatten().cloned().collect();
-        let owners: Vec<Place> = parts.iter().flat_map(|(&owner, limits)| limits.iter().map(move |_| owner)).collect();
+    fn solve(
+        &self,
+        parts: &Parts,
+        (net, memory): (&[f64], &mut Memory),
+    ) -> Result<(Program, Solved, Charges), ProblemError> {
+        let bends: Vec<Limit> = parts.values().flatten().map(|sign| sign.limit.clone()).collect();
+        let owners: Vec<(Place, &Sign)> =
+            parts.iter().flat_map(|(&owner, signs)| signs.iter().map(move |sign| (owner, sign))).collect();
         let wishes = Wishes { bends, ..self.wishes.clone() };
         let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
-        let solved = program.solve(self.smoother, self.lambda, &trial(self.solver))?;
+        let key = |name: &RowName| match *name {
+            RowName::Bend(row) => Some(owners[row].1.key(owners[row].0)),
+            _ => None,
+        };
+        let keys: Vec<Option<SignKey>> = program.names.iter().map(key).collect();
+        let start = memory.start(&keys);
+        let mut solved = program.solve_from(self.smoother, self.lambda, &trial(self.solver), start.as_ref())?;
+        memory.take(solved.solution.interior.take(), keys.into_iter());
         let mut charges = Charges::new();
         for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
             let RowName::Bend(row) = *name else { continue };
-            *charges.entry(owners[row]).or_default() += z.abs() * violated(&wishes.bends[row], net);
+            *charges.entry(owners[row].0).or_default() += z.abs() * violated(&wishes.bends[row], net);
         }
         Ok((program, solved, charges))
     }
@@ -420,7 +500,7 @@ impl Asked {
 
     /// The limits of the places that have a sign, but for those about an inflection. A place whose curvature has not the
     /// sign of its hump, which nobody sees, may keep it and not grow.
-    fn limits(&self, signs: &[i8], net: &[f64]) -> Vec<(usize, Limit)> {
+    fn limits(&self, signs: &[i8], net: &[f64]) -> Vec<(usize, Sign)> {
         let none = ROOM * dead(&self.bends, net);
         let count = signs.len();
         let beside = |k: usize| {
@@ -429,14 +509,14 @@ impl Asked {
         };
         let mut limits = Vec::new();
         for (index, hump) in self.humps.iter().enumerate() {
-            let places = (hump.from..hump.to).filter(|&k| !beside(k)).map(|k| (&self.bends[k], signs[k]));
-            for (bend, sign) in places {
+            let places = (hump.from..hump.to).filter(|&k| !beside(k)).map(|k| (k, &self.bends[k], signs[k]));
+            for (at, bend, sign) in places {
                 let Some(scaled) = bend.scaled(net, none) else { continue };
                 let (now, room) = (f64::from(sign) * scaled.at(net), scaled.room);
                 let is_own = f64::from(hump.sign) * scaled.at(net) >= 0.0;
                 let least = if is_own { -room } else { now.min(-room) };
                 let range = if sign > 0 { [least, f64::INFINITY] } else { [f64::NEG_INFINITY, -least] };
-                limits.push((index, scaled.limit(range)));
+                limits.push((index, Sign { at, positive: sign > 0, limit: scaled.limit(range) }));
             }
         }
         limits
@@ -502,7 +582,8 @@ mod tests {
         let wide = line(&[(-1, 12, 30.0), (1, 4, 1.0)]);
         let net: Vec<f64> = (0..16).map(|k| if (4..7).contains(&k) || k >= 12 { 0.5 } else { -1.0 }).collect();
         let limits = wide.limits(&[-1; 16], &net);
-        let upper = |k: usize| limits.iter().find(|(_, limit)| limit.row[0].0 == k).map(|(_, limit)| limit.upper);
+        let upper =
+            |k: usize| limits.iter().find(|(_, sign)| sign.limit.row[0].0 == k).map(|(_, sign)| sign.limit.upper);
         assert!(upper(5).is_some_and(|upper| (upper - 0.5).abs() < 1e-12));
         assert!(upper(13).is_some_and(|upper| upper < 0.01));
     }
@@ -512,7 +593,7 @@ mod tests {
         let changing = line(&[(-1, 6, 30.0), (1, 6, 40.0)]);
         let signs: Vec<i8> = (0..12).map(|k| if k < 6 { -1 } else { 1 }).collect();
         let limits = changing.limits(&signs, &signs.iter().map(|&sign| f64::from(sign)).collect::<Vec<_>>());
-        let rows: Vec<usize> = limits.iter().map(|(_, limit)| limit.row[0].0).collect();
+        let rows: Vec<usize> = limits.iter().map(|(_, sign)| sign.limit.row[0].0).collect();
         assert_eq!(rows, (0..5).chain(7..12).collect::<Vec<_>>());
     }
 }

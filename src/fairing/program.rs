@@ -8,7 +8,7 @@ use super::determined::Determined;
 use super::model::{Limit, Model, Reduced, Row};
 use super::smoothing::Smoother;
 use crate::numeric::SymmetricBand;
-use crate::qp::{Certificate, Problem, ProblemError, RepeatedSolver, Settings, Solution, SparseRows, Status};
+use crate::qp::{Certificate, Interior, Problem, ProblemError, Settings, Solution, SparseRows, Status};
 
 /// Part of the greatest entry of a row below which what is left of it over the free control values is rounding. Taken to
 /// unit size it would be a limit that nobody set.
@@ -274,7 +274,21 @@ impl Program {
     /// # Errors
     /// [`ProblemError`] when the numbers make no problem.
     pub fn solve(&self, smoother: &Smoother, lambda: f64, settings: &Settings) -> Result<Solved, ProblemError> {
-        let solution = RepeatedSolver::new(settings).solve(&self.problem)?;
+        self.solve_from(smoother, lambda, settings, None)
+    }
+
+    /// The same from a point of a similar program.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when the numbers make no problem.
+    pub fn solve_from(
+        &self,
+        smoother: &Smoother,
+        lambda: f64,
+        settings: &Settings,
+        start: Option<&Interior>,
+    ) -> Result<Solved, ProblemError> {
+        let solution = self.problem.solve_from(settings, start)?;
         let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let net = smoother.reduced.expand(&solution.x);
         let objective = smoother.objective(lambda, &solution.x);

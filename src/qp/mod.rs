@@ -20,7 +20,7 @@ mod structured;
 
 pub use certificate::Certificate;
 pub use factor::LeastFactor;
-pub use problem::{Problem, ProblemError, Progress, Settings, Solution, Status};
+pub use problem::{Interior, Problem, ProblemError, Progress, Settings, Solution, Status};
 pub use repeated::RepeatedSolver;
 pub use sparse::SparseRows;
 pub use structured::Solver;

@@ -93,6 +93,18 @@ pub struct Solution {
     pub iterations: usize,
     /// The iterates in order, those of every start; empty where the solver does not tell.
     pub progress: Vec<Progress>,
+    /// An early iterate, for the start of a similar problem.
+    pub interior: Option<Interior>,
+}
+
+/// A point well inside the limits of a problem, with multipliers, from which a similar one can start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interior {
+    /// x, length n.
+    pub x: Vec<f64>,
+    /// The slack and the multiplier of the upper and of the lower limit of each row, both above 0; the slack is infinite
+    /// without a limit, and of an equality. None: unknown.
+    pub rows: Vec<Option<[[f64; 2]; 2]>>,
 }
 
 /// How far an iterate is from a solution, each relative to the terms it is made of.
@@ -167,5 +179,17 @@ impl Problem {
     /// [`ProblemError`] when shapes or numbers are wrong; not solving is a [`Status`].
     pub fn solve(&self, settings: &Settings) -> Result<Solution, ProblemError> {
         Ok(super::structured::Solver::new(self, settings)?.solve())
+    }
+
+    /// Solves from a point of a similar problem.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when shapes or numbers are wrong.
+    pub fn solve_from(&self, settings: &Settings, start: Option<&Interior>) -> Result<Solution, ProblemError> {
+        let mut solver = super::structured::Solver::new(self, settings)?;
+        if let Some(start) = start {
+            solver.start_from(start)?;
+        }
+        Ok(solver.solve())
     }
 }

@@ -88,6 +88,7 @@ pub(crate) fn solve(problem: &Problem, settings: &Settings) -> Solution {
             multipliers: vec![0.0; m],
             iterations: 0,
             progress: Vec::new(),
+            interior: None,
         };
     };
     solver.solve();
@@ -107,6 +108,7 @@ pub(crate) fn solve(problem: &Problem, settings: &Settings) -> Solution {
         multipliers,
         iterations: usize::try_from(solver.solution.iterations).unwrap_or(usize::MAX),
         progress: Vec::new(),
+        interior: None,
     }
 }
 

@@ -44,6 +44,8 @@ pub(super) struct Factor {
     values: Vec<f64>,
     /// What the elimination of each supernode leaves for its parent: a lower triangle in a square.
     remainders: Vec<Vec<f64>>,
+    /// Memory of remainders that were taken.
+    spare: Vec<Vec<f64>>,
     /// Place of a row in the front in hand.
     places: Vec<u32>,
     /// The unknowns of a front while it is solved.
@@ -144,6 +146,7 @@ impl Factor {
             size,
             values: vec![0.0; offset],
             remainders: vec![Vec::new(); supernodes.len()],
+            spare: Vec::new(),
             places: vec![0; size],
             gathered: vec![0.0; tallest],
             supernodes,
@@ -156,7 +159,9 @@ impl Factor {
             let [width, height] = [node.width(), node.height()];
             let below = height - width;
             let panel = &mut self.values[node.offset..node.offset + width * height];
-            let mut remainder = vec![0.0; below * below];
+            let mut remainder = self.spare.pop().unwrap_or_default();
+            remainder.resize(below * below, 0.0);
+            (0..below).for_each(|j| remainder[j * below + j..(j + 1) * below].fill(0.0));
             panel.fill(0.0);
             for (place, row) in (node.first..node.end).chain(node.rows.iter().map(|&row| row as usize)).enumerate() {
                 self.places[row] = place as u32;
@@ -182,9 +187,11 @@ impl Factor {
                         target[self.places[*row as usize] as usize - up] += value;
                     }
                 }
+                self.spare.push(added);
             }
             if factor_panel(panel, [height, width], height, &|_| 0.0).is_err() {
                 self.remainders.iter_mut().for_each(|left| *left = Vec::new());
+                self.spare.push(remainder);
                 return false;
             }
             let under = Block::new(panel, [height, width], height).rows_from(width, below);

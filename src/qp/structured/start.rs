@@ -1,5 +1,6 @@
 //! Where the iteration starts.
 
+use super::super::problem::Interior;
 use super::newton::{Newton, Right};
 use super::point::{Iterate, Slack};
 use super::scaled::Scaled;
@@ -118,6 +119,26 @@ pub(super) fn warm(scaled: &Scaled, kept: &Iterate) -> Iterate {
             point.lower[row] = side(t - l, below.z);
         }
         point.z[row] = point.upper[row].z - point.lower[row].z;
+    }
+    point
+}
+
+/// A point of a similar problem as an iterate of this one. A row of which it knows nothing has slacks as large as it is
+/// violated, at least the square root of the mean product, and products equal to that.
+pub(super) fn like(scaled: &Scaled, known: &Interior) -> Iterate {
+    let m = scaled.rows.row_count();
+    let x = scaled.scaled_variables(&known.x);
+    let values = scaled.rows.apply(&x);
+    let mut point = Iterate { x, z: vec![0.0; m], upper: vec![Slack::NONE; m], lower: vec![Slack::NONE; m] };
+    for (row, sides) in known.rows.iter().enumerate() {
+        let Some([upper, lower]) = sides.map(|sides| sides.map(|side| scaled.side(row, side))) else { continue };
+        (point.upper[row], point.lower[row]) = (upper, lower);
+        point.z[row] = upper.z - lower.z;
+    }
+    let mu = (point.complementarity() / point.sides().max(1) as f64).max(f64::EPSILON);
+    for (row, value) in values.into_iter().enumerate().filter(|(row, _)| known.rows[*row].is_none()) {
+        let s = (scaled.lower[row] - value).max(value - scaled.upper[row]).max(mu.sqrt());
+        (point.upper[row], point.lower[row]) = (Slack { s, z: mu / s }, Slack { s, z: mu / s });
     }
     point
 }
