@@ -3,6 +3,7 @@
 
 mod gdf;
 mod glb;
+mod glb_read;
 mod nemoh;
 mod obj;
 mod panels_read;
@@ -11,7 +12,7 @@ mod stl;
 
 pub use gdf::write_gdf;
 pub use glb::write_glb;
-pub(super) use glb::{is_glb, read_glb};
+pub(super) use glb_read::{is_glb, read_glb};
 pub use nemoh::write_nemoh;
 pub use obj::write_obj;
 pub(super) use obj::{is_obj, read_obj};

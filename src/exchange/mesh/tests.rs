@@ -2,7 +2,7 @@ use super::*;
 use crate::hull::PanelMesh;
 
 /// A tetrahedron of unit edges along the axes, normals out.
-fn mesh() -> HullMesh {
+pub(super) fn mesh() -> HullMesh {
     HullMesh {
         vertices: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         triangles: vec![
