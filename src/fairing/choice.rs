@@ -26,8 +26,8 @@ const ACCURACY: f64 = 1e-7;
 const KEEPS: f64 = 0.02;
 
 /// Whether each of the `lines`, with these limits beside the rows of a program, is worth its one of `prices` \[m^2\]; none when that
-/// was not found. `net` meets the rows of the program. The second is a point well
-/// inside the limits: rows and variables of the program, and then the rows of the lines.
+/// was not found. `net` meets the rows of the program. The second is a point well inside the limits: rows and variables of the
+/// program, and then the rows of the lines.
 pub(super) fn worth_it(
     (program, reduced): (&Program, &Reduced),
     net: &[f64],

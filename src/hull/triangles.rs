@@ -56,6 +56,16 @@ pub struct MeshLine {
     pub closed: bool,
 }
 
+/// Edges of one of these triangles alone, in its direction.
+fn open_edges(triangles: impl Iterator<Item = [usize; 3]> + Clone) -> Vec<[usize; 2]> {
+    let mut uses: HashMap<(usize, usize), usize> = HashMap::new();
+    let edges = triangles.flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+    for [p, q] in edges.clone() {
+        *uses.entry((p.min(q), p.max(q))).or_default() += 1;
+    }
+    edges.filter(|&[p, q]| uses.get(&(p.min(q), p.max(q))) == Some(&1)).collect()
+}
+
 impl TriangleMesh {
     /// A mesh of triangles given by their corners; equal corners are one vertex, triangles with two of them are left
     /// out, and so are corners that are not finite.
@@ -97,18 +107,12 @@ impl TriangleMesh {
     /// The edges that belong to one triangle.
     #[must_use]
     pub fn open_edges(&self) -> Vec<[usize; 2]> {
-        let mut uses: HashMap<(usize, usize), usize> = HashMap::new();
-        let edges = || self.triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
-        for [p, q] in edges() {
-            *uses.entry((p.min(q), p.max(q))).or_default() += 1;
-        }
-        edges().filter(|&[p, q]| uses.get(&(p.min(q), p.max(q))) == Some(&1)).collect()
+        open_edges(self.triangles.iter().copied())
     }
 
-    /// The mesh with every triangle turned so that neighbours run through their common edge in opposite directions, and
-    /// the parts that hang together enclose a positive volume, int y n_y; and how many triangles were turned.
-    #[must_use]
-    pub fn oriented(mut self) -> (Self, usize) {
+    /// Of each triangle those beside it, edge by edge, and whether both run through the edge in the same direction; none where
+    /// an edge is not of two triangles.
+    fn neighbours(&self) -> Vec<[Option<(usize, bool)>; 3]> {
         // Sorted, the two triangles of an edge stand beside each other; where three and more meet nothing follows.
         let mut edges = Vec::with_capacity(3 * self.triangles.len());
         for (k, t) in self.triangles.iter().enumerate() {
@@ -126,6 +130,14 @@ impl TriangleMesh {
                 neighbours[b.2][b.3] = Some((a.2, alike));
             }
         }
+        neighbours
+    }
+
+    /// The mesh with every triangle turned so that neighbours run through their common edge in opposite directions, and
+    /// the parts that hang together enclose a positive volume, int y n_y; and how many triangles were turned.
+    #[must_use]
+    pub fn oriented(mut self) -> (Self, usize) {
+        let neighbours = self.neighbours();
         let mut turn: Vec<Option<bool>> = vec![None; self.triangles.len()];
         for first in 0..self.triangles.len() {
             if turn[first].is_some() {

@@ -36,6 +36,12 @@ fn number(value: &Value) -> Option<usize> {
     value.as_u64().and_then(|n| usize::try_from(n).ok())
 }
 
+/// What packs or repeats the geometry of a value, if anything does.
+fn refused(value: &Value) -> Option<String> {
+    let name = PACKED.iter().find(|name| value.get("extensions").is_some_and(|all| all.get(**name).is_some()))?;
+    Some(format!("{name} is not read; write the file without it"))
+}
+
 fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
@@ -67,8 +73,12 @@ fn items<'a>(
     if accessor.get("sparse").is_some() {
         return Err("sparse accessors are not read".to_owned());
     }
+    let view = accessor.get("bufferView").and_then(number).and_then(|k| scene.get("bufferViews")?.get(k));
+    let view = view.ok_or_else(missing)?;
+    if let Some(message) = refused(view) {
+        return Err(message);
+    }
     let found = || {
-        let view = scene.get("bufferViews")?.get(number(accessor.get("bufferView")?)?)?;
         let is_own = size_of(view, "buffer")? == 0 && list(scene, "buffers").first()?.get("uri").is_none();
         let kind = accessor.get("componentType")?.as_u64()?;
         let width = parts * { allowed }.find(|(other, _)| *other == kind)?.1;
@@ -103,11 +113,12 @@ impl Items<'_> {
             5123 => (f64::from(u16::from_le_bytes(two(n))), 65535.0),
             _ => (f64::from(f32::from_le_bytes([at[4 * n], at[4 * n + 1], at[4 * n + 2], at[4 * n + 3]])), 1.0),
         };
+        let is_part = self.normalized && self.kind != REAL;
         let value = |n: usize| match part(n) {
-            (value, greatest) if self.normalized => (value / greatest).max(-1.0),
+            (value, greatest) if is_part => (value / greatest).max(-1.0),
             (value, _) => value,
         };
-        if self.kind == REAL { Point3::from([0, 1, 2].map(|n| part(n).0)) } else { Point3::from([0, 1, 2].map(value)) }
+        Point3::from([0, 1, 2].map(value))
     }
 }
 
@@ -117,9 +128,8 @@ fn primitive(scene: &Value, binary: &[u8], value: &Value) -> Result<Vec<[Point3<
     if !matches!(mode, Some(4..=6)) {
         return Ok(Vec::new());
     }
-    let packed = PACKED.iter().find(|name| value.get("extensions").is_some_and(|all| all.get(**name).is_some()));
-    if let Some(name) = packed {
-        return Err(format!("{name} is not read; write the file without it"));
+    if let Some(message) = refused(value) {
+        return Err(message);
     }
     let missing = || "it has no positions".to_owned();
     let positions = value.get("attributes").and_then(|all| all.get("POSITION")).ok_or_else(missing)?;
@@ -200,10 +210,9 @@ fn shown(scene: &Value, faults: &mut Faults) -> Vec<(usize, Matrix4<f64>)> {
                 continue;
             }
         };
-        let instances = PACKED.iter().find(|name| node.get("extensions").is_some_and(|all| all.get(**name).is_some()));
-        let moves = instances.copied().or_else(|| node.get("skin").map(|_| "a skin"));
-        if let Some(moves) = moves {
-            faults.add(None, &name, format!("{moves} is not read; write the file without it"));
+        let skin = || node.get("skin").map(|_| "a skin is not read; write the file without it".to_owned());
+        if let Some(message) = refused(node).or_else(skin) {
+            faults.add(None, &name, message);
         }
         found.extend(node.get("mesh").and_then(number).map(|mesh| (mesh, matrix)));
         open.extend(children(node).into_iter().rev().map(|child| (child, matrix)));
@@ -334,6 +343,9 @@ mod tests {
         let draco = json!({"KHR_draco_mesh_compression": {"bufferView": 0}});
         let found = faults(&|scene| scene["meshes"][0]["primitives"][0]["extensions"] = draco.clone());
         assert!(found.contains("mesh 0, primitive 0: KHR_draco_mesh_compression"), "{found}");
+        let meshopt = json!({"EXT_meshopt_compression": {"buffer": 0}});
+        let found = faults(&|scene| scene["bufferViews"][0]["extensions"] = meshopt.clone());
+        assert!(found.contains("EXT_meshopt_compression is not read"), "{found}");
         let found = faults(&|scene| scene["nodes"] = json!([{"mesh": 0, "skin": 0, "rotation": [0, 0, 0, 0]}]));
         assert!(found.contains("node 0: rotation must be a unit quaternion"), "{found}");
         assert!(faults(&|scene| scene["nodes"] = json!([{"children": [0]}])).contains("below itself"));

@@ -3,8 +3,8 @@
 //!
 //! Units, scale, axes and origin are those of the conventions beside the file. Axes that are not given are found: the
 //! length is the longest, the breadth is along the axis about whose zero the body is symmetric or on one side of which
-//! it lies. Half a body is mirrored. Triangles are turned outward. Sections of a table lie at x = x_a + L (1 - cos(pi
-//! k/n))/2, closer at the ends, and their points are thinned to [`THINNED`] of the breadth.
+//! it lies. Half a body is mirrored. Triangles are turned outward, and shells inside others left out. Sections of a table
+//! lie at x = x_a + L (1 - cos(pi k/n))/2, closer at the ends, and their points are thinned to [`THINNED`] of the breadth.
 
 pub(super) mod frame;
 

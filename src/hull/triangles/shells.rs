@@ -1,16 +1,15 @@
 //! Shells of a mesh inside others: tanks, decks and bulkheads add nothing to a body.
 //!
 //! A shell is what hangs together across edges of two triangles. A point is inside the other shells where these, with their
-//! openings covered, have a winding number of 1 about it.
+//! openings covered, have a winding number of 1 about it. That is the sum of the solid angles of their triangles, over 4 pi.
+//! On a smooth skin it is 1/2. With the corners a, b, c counted from the point, a solid angle is this (van Oosterom and
+//! Strackee 1983).
 //!
 //! ```text
-//! w(p) = (1 / 4 pi) sum of the solid angles of the triangles as seen from p,
 //! tan(omega / 2) = a.(b x c) / (|a||b||c| + a.b |c| + b.c |a| + c.a |b|)
 //! ```
-//!
-//! (van Oosterom and Strackee 1983), the corners a, b, c counted from p. On a smooth skin it is 1/2.
 
-use super::TriangleMesh;
+use super::{TriangleMesh, open_edges};
 use crate::spline::{cross, dot, length, minus};
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -53,7 +52,7 @@ impl TriangleMesh {
             let others = || closed.iter().enumerate().filter(|(other, _)| *other != k).flat_map(|(_, shell)| shell);
             let looked_at = shell.iter().step_by(shell.len().div_ceil(samples));
             let is_inside = |&t: &usize| {
-                let middle = self.middle(t);
+                let middle = mean(self.triangles[t].into_iter().map(|v| self.vertices[v]), 3);
                 others().map(|corners| solid_angle(corners.map(|corner| minus(corner, middle)))).sum::<f64>()
                     > INSIDE * 4.0 * PI
             };
@@ -72,39 +71,33 @@ impl TriangleMesh {
 
     /// Triangles that hang together across edges of two.
     fn shells(&self) -> Vec<Vec<usize>> {
-        let mut of_edge: HashMap<(usize, usize), Vec<usize>> = HashMap::new();
-        for (k, t) in self.triangles.iter().enumerate() {
-            for (p, q) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
-                of_edge.entry((p.min(q), p.max(q))).or_default().push(k);
-            }
-        }
-        let pairs = of_edge.values().filter_map(|of| if let [a, b] = of[..] { Some([a, b]) } else { None });
-        connected(self.triangles.len(), pairs)
+        let neighbours = self.neighbours();
+        let beside = neighbours.iter().enumerate();
+        let pairs = beside.flat_map(|(k, others)| others.iter().flatten().map(move |(other, _)| [k, *other]));
+        connected(neighbours.len(), pairs)
     }
 
     /// The corners of a shell, with a fan from the middle of each opening to its edges.
     fn covered(&self, shell: &[usize]) -> Vec<[[f64; 3]; 3]> {
-        let own =
-            Self { vertices: self.vertices.clone(), triangles: shell.iter().map(|&t| self.triangles[t]).collect() };
-        let open = own.open_edges();
-        let mut covered: Vec<[[f64; 3]; 3]> = own.corners().collect();
-        for edges in connected(self.vertices.len(), open.iter().copied()) {
-            if edges.len() < 2 {
-                continue;
-            }
-            let middle: [f64; 3] = std::array::from_fn(|axis| {
-                edges.iter().map(|&v| self.vertices[v][axis]).sum::<f64>() / edges.len() as f64
-            });
-            let own = open.iter().filter(|[p, _]| edges.binary_search(p).is_ok());
-            covered.extend(own.map(|&[p, q]| [self.vertices[q], self.vertices[p], middle]));
-        }
-        covered
+        let triangles = shell.iter().map(|&t| self.triangles[t]);
+        let open = open_edges(triangles.clone());
+        let mut at = HashMap::new();
+        let ends = open.iter().enumerate().flat_map(|(k, edge)| edge.map(|vertex| (k, vertex)));
+        let pairs = ends.map(|(k, vertex)| [k, *at.entry(vertex).or_insert(k)]);
+        let openings = connected(open.len(), pairs);
+        let fans = openings.iter().flat_map(|edges| {
+            let first = edges.iter().map(|&k| self.vertices[open[k][0]]);
+            let middle = mean(first, edges.len());
+            edges.iter().map(|&k| open[k]).map(move |[p, q]| [self.vertices[q], self.vertices[p], middle])
+        });
+        triangles.map(|t| t.map(|v| self.vertices[v])).chain(fans).collect()
     }
+}
 
-    fn middle(&self, triangle: usize) -> [f64; 3] {
-        let corners = self.triangles[triangle].map(|v| self.vertices[v]);
-        std::array::from_fn(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0)
-    }
+/// The mean of `count` points.
+fn mean(points: impl Iterator<Item = [f64; 3]>, count: usize) -> [f64; 3] {
+    let sum = points.fold([0.0; 3], |sum, point| std::array::from_fn(|axis| sum[axis] + point[axis]));
+    sum.map(|sum| sum / count as f64)
 }
 
 /// The first of the part of k.

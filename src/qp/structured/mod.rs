@@ -30,8 +30,8 @@
 //! towards mu as long as they lengthen the step (Gondzio 1996). P keeps primal and dual steps equal; a linear program
 //! has two. Beyond the tolerance it goes on while the duality gap still falls. The start is a soft least-squares fit, with
 //! slacks and multipliers near the solution, and where that stalls far inside ([`start`]). It may come from a similar
-//! problem ([`Interior`]). A later solve of a [`Solver`] of which limits alone have changed starts from the rows that bound
-//! the last solution ([`active`]), others from the iterate their predecessor had before it neared the boundary. Where the
+//! problem ([`Interior`]). Where limits alone have changed, a later solve of a [`Solver`] starts from the rows that bound the
+//! last solution ([`active`]). Others start from the iterate their predecessor had before it neared the boundary. Where the
 //! iteration stalls two auxiliary programs look for a proof that there is no solution ([`phase`]).
 
 mod active;
