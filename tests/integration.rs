@@ -52,6 +52,7 @@ mod suspects_lines;
 mod suspects_outlines;
 mod table_errors;
 mod table_files;
+mod table_layouts;
 mod table_reading;
 mod table_sections;
 mod text_formats;

@@ -10,7 +10,8 @@
 //! | `6,41` | the same, where the table has decimal commas |
 //! | `3-4-5`, `3-4-5+`, `3-4-5-`, `-0-3-4` | feet, inches, eighths; `+` and `-` a sixteenth of an inch more or less |
 //! | `3,4,5` | feet, inches, eighths with commas |
-//! | `6.41 m`, `3' 4 5/8"`, `32 in` | a number with its unit |
+//! | `3' 4 5/8"`, `3'-4 5/8"`, `3′ 4⅝″`, `3-4 5/8` | feet, inches and a fraction |
+//! | `6.41 m`, `32 in` | a number with its unit |
 //! | `(6.41)` | doubtful |
 //! | `6.41!` | locked |
 //! | `6.41K`, `6.41T` | on a knuckle, on a tangent line (edge of a flat of side or bottom) |
@@ -19,7 +20,7 @@
 //! ever a value. Cost: one pass over the text, no allocation for plain numbers.
 
 use super::notation::Notation;
-use super::quantity::{Dimension, UnitError, parse};
+use super::quantity::{Dimension, UnitError, keyed, parse};
 
 /// The longest cell that is looked at \[bytes\].
 pub const LONGEST_CELL: usize = 80;
@@ -43,7 +44,7 @@ pub enum CellWriting {
         /// Digits after the decimal sign.
         decimals: usize,
     },
-    /// Feet, inches, eighths.
+    /// Feet, inches, eighths, or feet and inches with a fraction.
     Eighths,
     /// With its own unit.
     WithUnit,
@@ -190,13 +191,14 @@ fn eighths(text: &str, separator: char) -> Option<Result<f64, CellError>> {
     let body = text.strip_prefix('-').unwrap_or(text);
     let body = body.strip_suffix(['+', '-']).unwrap_or(body);
     let mut parts = 0;
-    for part in body.split(separator) {
+    let half = body.strip_suffix("1/2").and_then(|rest| rest.strip_suffix([' ', '-']));
+    for part in half.unwrap_or(body).split(separator).map(str::trim) {
         if part.is_empty() || !part.bytes().all(|b| b.is_ascii_digit()) {
             return None;
         }
         parts += 1;
     }
-    if parts == 2 && separator == '-' {
+    if parts == 2 && separator == '-' && half.is_none() {
         return Some(Err(CellError::TwoParts { meant: format!("{body}-0") }));
     }
     if parts != 3 {
@@ -210,6 +212,12 @@ fn eighths(text: &str, separator: char) -> Option<Result<f64, CellError>> {
         }
         Err(error) => Err(CellError::Quantity(error)),
     })
+}
+
+/// Whether a length is in feet with inches, or in the marks of either.
+fn is_imperial(text: &str) -> bool {
+    let words = text.split(|c: char| !c.is_ascii_alphabetic()).filter(|word| !word.is_empty());
+    text.contains(['\'', '"']) || words.count() != 1
 }
 
 /// The length \[m\] of a text without marks.
@@ -233,6 +241,7 @@ fn length(text: &str, rules: CellRules) -> Result<(f64, CellWriting), CellError>
     match parse(&with_points) {
         Ok(measure) => match measure.dimension {
             Dimension::None => Ok((rules.unit.metres(measure.value), CellWriting::WithUnit)),
+            Dimension::Length if is_imperial(text) => Ok((measure.value, CellWriting::Eighths)),
             Dimension::Length => Ok((measure.value, CellWriting::WithUnit)),
             other => Err(UnitError::Kind { text: text.to_owned(), found: other.as_str(), expected: "a length" }.into()),
         },
@@ -258,10 +267,11 @@ pub fn parse_cell(text: &str, rules: CellRules) -> Result<CellReading, CellError
     if text.len() > LONGEST_CELL {
         return Err(CellError::TooLong(text.chars().count()));
     }
-    if matches!(text, "" | "-" | "*" | "\u{2013}" | "\u{2014}") {
+    let keyed = keyed(text);
+    if matches!(keyed.as_ref(), "" | "-" | "*") {
         return Ok(reading);
     }
-    let mut rest = text;
+    let mut rest = keyed.as_ref();
     loop {
         if let Some(before) = rest.strip_suffix('!') {
             reading.locked = true;
@@ -328,6 +338,12 @@ mod tests {
         close("3,4,5+", (36.0 + 4.6875) * 0.0254);
         close("3' 4 5/8\"", (36.0 + 4.625) * 0.0254);
         close("12 FT", 12.0 * 0.3048);
+        for text in ["3'-4 5/8\"", "3\u{2032} 4\u{215d}\u{2033}", "3-4 5/8", "3\u{2013}4\u{2013}5", "3-4\u{215d}"] {
+            close(text, (36.0 + 4.625) * 0.0254);
+            assert_eq!(parse_cell(text, METRES).unwrap().writing, CellWriting::Eighths, "{text}");
+        }
+        close("3-4-5\u{bd}", (36.0 + 4.6875) * 0.0254);
+        close("(3\u{2032} 4\u{215d}\u{2033}K)", (36.0 + 4.625) * 0.0254);
         let rules = CellRules { unit: Notation::Millimetres, decimal_comma: false };
         assert_eq!(parse_cell("6410", rules).unwrap().entry, CellEntry::Length(6.41));
         assert_eq!(parse_cell("6.41 m", rules).unwrap().entry, CellEntry::Length(6.41));

@@ -1,9 +1,12 @@
 //! One quantity: a number, or numbers with units, or feet-inches-eighths.
 //!
-//! Grammar: `13.2`, `32250 mm`, `62 ft 3 in`, `3' 4 5/8"`, `3-4-5+` (3 ft 4 in and 5 eighths; the sign adds or takes one
-//! sixteenth of an inch), `12 deg`, `4050 t`, `1103 m2`, `2.5 %`, `14 kn`. A decimal comma is refused, with what to write
-//! instead.
+//! Grammar: `13.2`, `32250 mm`, `62 ft 3 in`, `3' 4 5/8"`, `3'-4 5/8"`, `3' 4`, `3-4 5/8` (feet, inches and a fraction),
+//! `3-4-5+` (3 ft 4 in and 5 eighths; the sign, or a half, adds or takes one sixteenth of an inch), `12 deg`, `4050 t`,
+//! `1103 m2`, `2.5 %`, `14 kn`. Typographic dashes, primes and fractions (`3′ 4⅝″`) are those of a keyboard. A decimal comma
+//! is refused, with what to write instead.
 //! Factors are exact by definition: 1 in = 0.0254 m, 1 kn = 1852/3600 m/s, 1 long ton = 1.0160469088 t (NIST SP 811).
+
+use std::borrow::Cow;
 
 /// What a number measures; plain numbers have none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,6 +119,44 @@ fn quoted(text: &str) -> String {
     if text.chars().count() > 40 { text.chars().take(37).chain("...".chars()).collect() } else { text.to_owned() }
 }
 
+/// A text with the dashes, primes and fractions of a keyboard for those of typesetters.
+pub(super) fn keyed(text: &str) -> Cow<'_, str> {
+    if text.is_ascii() {
+        return if text.contains("''") { Cow::Owned(text.replace("''", "\"")) } else { Cow::Borrowed(text) };
+    }
+    let mut plain = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        let fraction = match c {
+            '\u{2010}'..='\u{2015}' | '\u{2212}' => "-",
+            '\u{2032}' | '\u{2018}' | '\u{2019}' | '\u{b4}' => "'",
+            '\u{2033}' | '\u{201c}' | '\u{201d}' => "\"",
+            '\u{2044}' => "/",
+            '\u{a0}' | '\u{2009}' | '\u{202f}' => " ",
+            '\u{bd}' => " 1/2",
+            '\u{bc}' => " 1/4",
+            '\u{be}' => " 3/4",
+            '\u{215b}' => " 1/8",
+            '\u{215c}' => " 3/8",
+            '\u{215d}' => " 5/8",
+            '\u{215e}' => " 7/8",
+            '\u{2153}' => " 1/3",
+            '\u{2154}' => " 2/3",
+            other => {
+                plain.push(other);
+                continue;
+            }
+        };
+        // A fraction is parted from the whole number before it, and from nothing else.
+        let parted = plain.ends_with(|c: char| c.is_ascii_digit());
+        plain.push_str(if parted {
+            fraction
+        } else {
+            fraction.strip_prefix(' ').filter(|f| !f.is_empty()).unwrap_or(fraction)
+        });
+    }
+    Cow::Owned(plain.replace("''", "\""))
+}
+
 /// Factor to SI and dimension of a unit.
 fn unit(word: &str) -> Option<(f64, Dimension)> {
     use Dimension::{Angle, Area, Density, Length, Mass, Percent, Speed, Volume};
@@ -124,8 +165,8 @@ fn unit(word: &str) -> Option<(f64, Dimension)> {
         "km" => (1000.0, Length),
         "cm" => (0.01, Length),
         "mm" => (0.001, Length),
-        "ft" | "feet" | "foot" | "'" | "\u{2032}" => (0.3048, Length),
-        "in" | "inch" | "inches" | "\"" | "\u{2033}" => (0.0254, Length),
+        "ft" | "feet" | "foot" | "'" => (0.3048, Length),
+        "in" | "inch" | "inches" | "\"" => (0.0254, Length),
         "deg" | "degree" | "degrees" | "\u{b0}" => (std::f64::consts::PI / 180.0, Angle),
         "rad" => (1.0, Angle),
         "t" | "tonne" | "tonnes" => (1.0, Mass),
@@ -157,12 +198,13 @@ fn eighths(text: &str) -> Option<Result<f64, UnitError>> {
         Some(rest) => (-1.0, rest),
         None => (1.0, text),
     };
-    let (body, tick) = match (body.strip_suffix('+'), body.strip_suffix('-')) {
-        (Some(rest), _) => (rest, 0.5),
-        (_, Some(rest)) => (rest, -0.5),
+    let half = body.strip_suffix("1/2").and_then(|rest| rest.strip_suffix([' ', '-']));
+    let (body, tick) = match (body.strip_suffix('+'), body.strip_suffix('-'), half) {
+        (Some(rest), _, _) | (_, _, Some(rest)) => (rest, 0.5),
+        (_, Some(rest), _) => (rest, -0.5),
         _ => (body, 0.0),
     };
-    let parts: Vec<&str> = body.split('-').collect();
+    let parts: Vec<&str> = body.split('-').map(str::trim).collect();
     let [feet, inches, eighths] = parts[..] else { return None };
     if ![feet, inches, eighths].iter().all(|p| !p.is_empty() && p.bytes().all(|b| b.is_ascii_digit())) {
         return None;
@@ -178,18 +220,48 @@ fn eighths(text: &str) -> Option<Result<f64, UnitError>> {
     Some(sum())
 }
 
+/// `3-4 5/8`: feet, and inches with a fraction \[m\]; none when it does not look so.
+fn feet_and_fraction(text: &str) -> Option<Result<f64, UnitError>> {
+    let (sign, body) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
+    let (feet, inches) = body.split_once('-')?;
+    let (inches, above) = inches.split_once([' ', '-'])?;
+    let (above, below, rest) = fraction(above.trim_start())?;
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    if !rest.is_empty() || ![feet, inches, above].into_iter().all(digits) {
+        return None;
+    }
+    let sum = || {
+        let whole = number(inches)?;
+        if whole > 11.0 {
+            return Err(UnitError::Range { text: quoted(text), what: "inches", largest: 11 });
+        }
+        let part = number(above)? / denominator(below, text)?;
+        Ok(sign * (12.0 * number(feet)? + whole + part) * 0.0254)
+    };
+    Some(sum())
+}
+
 /// One part of a quantity: a number with an optional fraction and its unit.
 struct Part<'a> {
     value: f64,
     unit: &'a str,
 }
 
-/// Splits `62 ft 3 in`, `4 5/8"`, `12 deg` into numbers with units.
+/// Whether a unit is that of feet.
+fn is_feet(unit: &str) -> bool {
+    unit == "'" || ["ft", "feet", "foot"].iter().any(|word| word.eq_ignore_ascii_case(unit))
+}
+
+/// Splits `62 ft 3 in`, `3'-4 5/8"`, `4 5/8"`, `12 deg` into numbers with units; what follows feet without a unit is inches.
 fn parts(text: &str) -> Result<Vec<Part<'_>>, UnitError> {
     let mut rest = text;
     let mut parts = Vec::new();
     let is_digit = |c: char| c.is_ascii_digit() || c == '.';
     while !rest.is_empty() {
+        let after_feet = parts.last().is_some_and(|part: &Part<'_>| is_feet(part.unit));
+        if let Some(inches) = rest.strip_prefix('-').filter(|_| after_feet) {
+            rest = inches.trim_start();
+        }
         let signed = usize::from(parts.is_empty() && rest.starts_with(['+', '-']));
         let mut end = rest[signed..].find(|c| !is_digit(c)).map_or(rest.len(), |at| at + signed);
         // An exponent belongs to the number only when digits follow it.
@@ -208,7 +280,7 @@ fn parts(text: &str) -> Result<Vec<Part<'_>>, UnitError> {
             let stop = below.find(|c: char| !c.is_ascii_digit()).unwrap_or(below.len());
             value /= denominator(&below[..stop], text)?;
             rest = &below[stop..];
-        } else if let Some((above, below, left)) = fraction(rest.trim_start()) {
+        } else if let Some((above, below, left)) = fraction(rest.strip_prefix('-').unwrap_or(rest.trim_start())) {
             value += number(above)? / denominator(below, text)?;
             rest = left;
         }
@@ -217,7 +289,8 @@ fn parts(text: &str) -> Result<Vec<Part<'_>>, UnitError> {
             .find(|c: char| c.is_whitespace() || ((is_digit(c) || c == '-') && !after_unit(rest, c)))
             .unwrap_or(rest.len());
         let (word, left) = rest.split_at(stop);
-        parts.push(Part { value, unit: word });
+        let inches = word.is_empty() && left.is_empty() && after_feet;
+        parts.push(Part { value, unit: if inches { "in" } else { word } });
         rest = left.trim_start();
     }
     Ok(parts)
@@ -259,7 +332,8 @@ fn decimal_comma(text: &str) -> Option<UnitError> {
 /// # Errors
 /// [`UnitError`] when it writes none.
 pub fn parse(text: &str) -> Result<Measure, UnitError> {
-    let text = text.trim();
+    let keyed = keyed(text.trim());
+    let text = keyed.as_ref();
     if text.is_empty() {
         return Err(UnitError::Empty);
     }
@@ -269,7 +343,7 @@ pub fn parse(text: &str) -> Result<Measure, UnitError> {
     if let Some(error) = decimal_comma(text) {
         return Err(error);
     }
-    if let Some(length) = eighths(text) {
+    if let Some(length) = eighths(text).or_else(|| feet_and_fraction(text)) {
         return length.map(|value| Measure { value, dimension: Dimension::Length });
     }
     let parts = parts(text)?;
@@ -330,6 +404,27 @@ mod tests {
         close("-0-4-0", -4.0 * 0.0254, Dimension::Length);
         close("-3 ft 6 in", -3.5 * 0.3048, Dimension::Length);
         close("1e-3 km", 1.0, Dimension::Length);
+        for text in [
+            "3'-4 5/8\"",
+            "3' - 4 5/8\"",
+            "3'-4-5/8\"",
+            "3\u{2032} 4\u{215d}\u{2033}",
+            "3\u{2019}4 5/8\u{201d}",
+            "3' 4 5/8''",
+            "3' 4 5/8",
+            "3 \u{2014} 4 \u{2014} 5",
+            "3 ft 4 5\u{2044}8 in",
+            "3-4 5/8",
+            "3-4\u{215d}",
+            "3\u{2013}4\u{2013}5",
+            "3 ft-4.625 in",
+        ] {
+            close(text, (3.0 * 12.0 + 4.625) * 0.0254, Dimension::Length);
+        }
+        close("3-4-5\u{bd}", (3.0 * 12.0 + 4.6875) * 0.0254, Dimension::Length);
+        close("0' \u{bd}\"", 0.0127, Dimension::Length);
+        close("7\u{bd}\"", 7.5 * 0.0254, Dimension::Length);
+        close("\u{2212}0-4-0", -4.0 * 0.0254, Dimension::Length);
     }
 
     #[test]
@@ -355,6 +450,7 @@ mod tests {
         assert_eq!(message("13,2 m"), "'13,2 m' has a decimal comma; write 13.2 m");
         assert_eq!(message("3-11-9"), "'3-11-9': eighths must be 0 to 7");
         assert_eq!(message("3-12-1"), "'3-12-1': inches must be 0 to 11");
+        assert_eq!(message("3-12 1/2"), "'3-12 1/2': inches must be 0 to 11");
         assert!(message("12 furlong").contains("'furlong' is not a unit"));
         assert_eq!(message("twelve"), "'twelve' is not a number");
         assert_eq!(message("12 m 3 deg"), "'12 m 3 deg' mixes units that cannot be added");

@@ -33,6 +33,7 @@ mod sections;
 mod settings;
 mod sidecar;
 mod tidy;
+mod triples;
 mod unsupported;
 #[cfg(feature = "workbooks")]
 mod workbook;
@@ -142,7 +143,7 @@ pub fn read_table_with<'a>(
 /// The table of a file of fields: CSV, TSV or XLSX.
 fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Option<OffsetTable> {
     let mut sheet = None;
-    let (grid, text) = if xlsx::is_xlsx(bytes) {
+    let (mut grid, text) = if xlsx::is_xlsx(bytes) {
         let (grid, name) = workbook::grid(bytes, problems)?;
         problems.note(format!("sheet '{name}' of the workbook"));
         sheet = Some(name);
@@ -171,6 +172,7 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
         );
         return None;
     }
+    triples::settle(&mut grid.rows, problems);
     let layout = settings.layout.unwrap_or_else(|| {
         if tidy::is_tidy(&grid.rows) {
             TableLayout::Tidy

@@ -1,0 +1,84 @@
+//! Tables as people type them: blanks between columns, one point a row, feet and inches in all writings, rows for several
+//! stations, workbooks with titles and notes, rows of lines of boats. Every layout gives the volume of the plain table.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use loftsman::exchange::{Severity, read_table, read_table_with};
+use loftsman::hull::{Cell, OffsetTable, SectionalAreaCurve};
+use loftsman::hydrostatics::Conventions;
+use loftsman::report::read_hydrostatic_body;
+
+use crate::support::{among, carried, folder, read_text};
+
+fn case(name: &str) -> std::path::PathBuf {
+    carried("tests/table_cases").join(name)
+}
+
+/// The volume of the file at a draught \[m\].
+fn volume(path: &Path, draught: f64) -> f64 {
+    let body = read_hydrostatic_body(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let rows = body.curves_of_form(&[draught], &Conventions::default()).unwrap().0.rows;
+    rows[0].displacement_volume
+}
+
+fn problems(text: &str) -> Vec<String> {
+    let problems = read_table("t.csv", text.as_bytes()).unwrap_err();
+    problems.iter().filter(|p| p.severity == Severity::Error).map(ToString::to_string).collect()
+}
+
+fn warnings(table: &str, beside: &str) -> Vec<String> {
+    let read = read_table_with("t.csv", table.as_bytes(), Some(("t.toml", beside))).unwrap();
+    read.notes.iter().filter(|p| p.severity == Severity::Warning).map(ToString::to_string).collect()
+}
+
+/// The boat in feet, inches and eighths, each cell written by `write`.
+fn boat(write: impl Fn([u32; 3]) -> String) -> String {
+    let text = read_text(case("dash.csv"));
+    let mut lines = text.lines();
+    let mut out = format!("{}\n", lines.next().unwrap());
+    for line in lines {
+        let (head, cells) = line.split_once(',').unwrap();
+        let cell = |cell: &str| -> String {
+            let numbers: Vec<u32> = cell.split('-').map(|n| n.parse().unwrap()).collect();
+            format!("\"{}\"", write(numbers.try_into().unwrap()).replace('"', "\"\""))
+        };
+        writeln!(out, "{head},{}", cells.split(',').map(cell).collect::<Vec<_>>().join(",")).unwrap();
+    }
+    out
+}
+
+/// How feet, inches and eighths are written.
+type Writing = Box<dyn Fn([u32; 3]) -> String>;
+
+#[test]
+fn every_way_of_writing_feet_and_inches() {
+    const COMMON: [&str; 8] = ["", " 1/8", " 1/4", " 3/8", " 1/2", " 5/8", " 3/4", " 7/8"];
+    const SIGNS: [&str; 8] = ["", "\u{215b}", "\u{bc}", "\u{215c}", "\u{bd}", "\u{215d}", "\u{be}", "\u{215e}"];
+    let at = |signs: [&'static str; 8], eighths: u32| signs[usize::try_from(eighths).unwrap()];
+    let writings: [(&str, Writing); 9] = [
+        ("dash", Box::new(|[f, i, e]| format!("{f}-{i}-{e}"))),
+        ("dot", Box::new(|[f, i, e]| format!("{f}.{i}.{e}"))),
+        ("space", Box::new(|[f, i, e]| format!("{f} {i} {e}"))),
+        ("slash", Box::new(|[f, i, e]| format!("{f}/{i}/{e}"))),
+        ("enddash", Box::new(|[f, i, e]| format!("{f}\u{2013}{i}\u{2013}{e}"))),
+        ("prime", Box::new(move |[f, i, e]| format!("{f}'-{i}{}\"", at(COMMON, e)))),
+        ("uprime", Box::new(move |[f, i, e]| format!("{f}\u{2032} {i}{}\u{2033}", at(SIGNS, e)))),
+        ("quote", Box::new(move |[f, i, e]| format!("{f}\u{2019}{i}{}\u{201d}", at(SIGNS, e)))),
+        ("words", Box::new(move |[f, i, e]| format!("{f} ft {i}{} in", at(COMMON, e)))),
+    ];
+    for (name, write) in writings {
+        let folder = folder(name);
+        let path = folder.write("boat.csv", boat(write));
+        let found = volume(Path::new(&path), 0.6096);
+        assert!((found - 4.998).abs() < 2e-3, "{name}: {found}");
+    }
+    let dots = boat(|[f, i, e]| format!("{f}.{i}.{e}"));
+    among(&warnings(&dots, ""), &["W320 t.csv: 54 cells as '0.0.0': read as feet, inches and eighths"]);
+    among(
+        &problems(&dots.replacen("1.1.6", "1.1", 1)),
+        &["E301 t.csv row 3, column 3: '1.1'", "feet and inches, or a decimal"],
+    );
+    // One cell among decimal numbers is no notation.
+    among(&problems("x [m],0.5,1\n0,1.5,1.2.3\n10,2.5,3.5\n"), &["E301 t.csv row 2, column 3: '1.2.3'"]);
+}
