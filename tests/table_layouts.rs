@@ -11,6 +11,9 @@ use loftsman::report::read_hydrostatic_body;
 
 use crate::support::{among, carried, folder, read_text};
 
+/// Volumes of one table on waterlines, and of the same points as sections \[m3\].
+const VOLUMES: std::ops::RangeInclusive<f64> = 3151.0..=3187.0;
+
 fn case(name: &str) -> std::path::PathBuf {
     carried("tests/table_cases").join(name)
 }
@@ -22,6 +25,42 @@ fn volume(path: &Path, draught: f64) -> f64 {
     rows[0].displacement_volume
 }
 
+/// Stations, waterlines and half-breadths of the ship.
+fn ship() -> (Vec<String>, Vec<String>, Vec<Vec<String>>) {
+    let text = read_text(case("b_long.csv"));
+    let (mut xs, mut zs, mut table): (Vec<String>, Vec<String>, Vec<Vec<String>>) = Default::default();
+    for line in text.lines().skip(1) {
+        let [x, z, y] = line.split(',').map(str::to_owned).collect::<Vec<_>>().try_into().unwrap();
+        if xs.last() != Some(&x) {
+            xs.push(x);
+            table.push(Vec::new());
+        }
+        if xs.len() == 1 {
+            zs.push(z);
+        }
+        table.last_mut().unwrap().push(y);
+    }
+    (xs, zs, table)
+}
+
+/// The matrix with these fields between its columns.
+fn matrix(corner: &str, separator: &str) -> String {
+    let (xs, zs, table) = ship();
+    let mut text = format!("{corner}{separator}{}\n", zs.join(separator));
+    for (x, line) in xs.iter().zip(&table) {
+        writeln!(text, "{x}{separator}{}", line.join(separator)).unwrap();
+    }
+    text
+}
+
+#[track_caller]
+fn displaces(name: &str, text: &str) {
+    let folder = folder(&name.replace('.', "-"));
+    let path = folder.write(name, text);
+    let found = volume(Path::new(&path), 4.0);
+    assert!(VOLUMES.contains(&found), "{name}: {found}\n{text}");
+}
+
 fn problems(text: &str) -> Vec<String> {
     let problems = read_table("t.csv", text.as_bytes()).unwrap_err();
     problems.iter().filter(|p| p.severity == Severity::Error).map(ToString::to_string).collect()
@@ -30,6 +69,30 @@ fn problems(text: &str) -> Vec<String> {
 fn warnings(table: &str, beside: &str) -> Vec<String> {
     let read = read_table_with("t.csv", table.as_bytes(), Some(("t.toml", beside))).unwrap();
     read.notes.iter().filter(|p| p.severity == Severity::Warning).map(ToString::to_string).collect()
+}
+
+#[test]
+fn blanks_between_columns() {
+    displaces("spaces.txt", &matrix("x", "  "));
+    displaces("unit.txt", &matrix("station [m]", " "));
+    displaces("comment.txt", &matrix("# x", " "));
+    displaces("zero.txt", &matrix("0.0", " "));
+    displaces("nan.txt", &matrix("nan", " "));
+    displaces("comma.txt", &matrix("x", "  ").replace('.', ","));
+    // No word over the index.
+    displaces("index.txt", &matrix("    ", "  "));
+}
+
+#[test]
+fn half_breadths_alone_ask_for_positions() {
+    let (_, _, table) = ship();
+    for separator in [" ", ","] {
+        let bare: Vec<String> = table.iter().map(|line| line.join(separator)).collect();
+        among(
+            &problems(&bare.join("\n")),
+            &["E300 t.csv row 1, column 1: '0.000': half-breadths alone", "heights of the waterlines above them"],
+        );
+    }
 }
 
 /// The boat in feet, inches and eighths, each cell written by `write`.
@@ -81,4 +144,16 @@ fn every_way_of_writing_feet_and_inches() {
     );
     // One cell among decimal numbers is no notation.
     among(&problems("x [m],0.5,1\n0,1.5,1.2.3\n10,2.5,3.5\n"), &["E301 t.csv row 2, column 3: '1.2.3'"]);
+}
+
+fn cells(table: &OffsetTable, station: usize) -> Vec<Option<f64>> {
+    table.stations[station].half_breadths.iter().map(Cell::value).collect()
+}
+
+#[test]
+fn columns_of_fixed_width_may_be_empty() {
+    let text = "x      0.0   1.0   2.0\n0             0.5   1.5\n10     1.0   2.0   3.0\n20                  1.0\n";
+    let table = read_table("t.txt", text.as_bytes()).unwrap().table;
+    assert_eq!(cells(&table, 0), [None, Some(0.5), Some(1.5)]);
+    assert_eq!(cells(&table, 2), [None, None, Some(1.0)]);
 }

@@ -1,8 +1,9 @@
 //! From bytes to fields: the encoding, the separator, quotes, comment lines, and the limits that keep any input harmless.
 //!
-//! Fields follow RFC 4180: a field in quotes may hold separators, line ends and doubled quotes. A line whose first
-//! character is `#` is a comment. Memory is bounded by [`LARGEST_TABLE`] bytes of text and [`MOST_CELLS`] fields.
+//! Tabs, semicolons, bars or commas part the fields, or blanks where none of these does. Fields follow RFC 4180: a field in quotes may hold separators, line ends and doubled quotes. A line whose first
+//! character is `#` is a comment; the last one before numbers alone, with as many fields as they have, is their header. Memory is bounded by [`LARGEST_TABLE`] bytes of text and [`MOST_CELLS`] fields.
 
+use super::blanks;
 use super::problem::{Field, FilePosition, Problems};
 
 /// Longer files are not tables of offsets \[bytes\].
@@ -68,12 +69,12 @@ pub(super) fn decode(bytes: &[u8], problems: &mut Problems) -> Option<String> {
 }
 
 /// The character between fields: the tab, the semicolon or the bar when most lines have one outside quotes; else the
-/// comma.
+/// comma, or the blank.
 fn sniff(text: &str) -> char {
     let mut counts = [0usize; 3];
-    let mut lines = 0;
-    for line in text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#')).take(200) {
-        lines += 1;
+    let all = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let lines: Vec<&str> = all.take(200).collect();
+    for line in &lines {
         let mut open = false;
         let mut seen = [false; 3];
         for c in line.chars() {
@@ -90,7 +91,8 @@ fn sniff(text: &str) -> char {
         }
     }
     let most = ['\t', ';', '|'].into_iter().zip(counts).max_by_key(|(_, count)| *count);
-    most.filter(|(_, count)| 2 * count > lines).map_or(',', |(c, _)| c)
+    let other = if blanks::part(&lines) { ' ' } else { ',' };
+    most.filter(|(_, count)| 2 * count > lines.len()).map_or(other, |(c, _)| c)
 }
 
 /// Splits a text into rows of fields; every breach of a limit is an error.
@@ -102,6 +104,60 @@ pub(super) fn split(text: &str, separator: Option<char>, problems: &mut Problems
         open_end: !text.is_empty() && !text.ends_with('\n'),
         ..Grid::default()
     };
+    if separator == ' ' {
+        split_at_blanks(text, &mut grid, problems)?;
+    } else {
+        split_at_separators(text, &mut grid, problems)?;
+    }
+    header_of_comment(&mut grid);
+    Some(grid)
+}
+
+/// Takes the header of rows of numbers from the last comment before them.
+fn header_of_comment(grid: &mut Grid) {
+    let is_number = |text: &str| text.trim().replace(',', ".").parse::<f64>().is_ok();
+    let Some(first) = grid.rows.iter().find(|row| !row.is_empty()) else { return };
+    let Some(at) = grid.comments.iter().rposition(|(line, _)| *line < first[0].row) else { return };
+    let (row, comment) = &grid.comments[at];
+    let texts: Vec<&str> = match grid.separator {
+        ' ' => comment.split_whitespace().collect(),
+        separator => comment.split(separator).map(str::trim).collect(),
+    };
+    let numbers = first.len() > 1 && first.iter().all(|field| is_number(&field.text));
+    if !numbers || texts.len() != first.len() || comment.contains('=') || is_number(texts[0]) {
+        return;
+    }
+    let field = |(k, text): (usize, &&str)| Field { text: (*text).to_owned(), row: *row, column: k + 1 };
+    let header = texts.iter().enumerate().map(field).collect();
+    grid.rows.insert(0, header);
+    grid.comments.remove(at);
+}
+
+fn split_at_blanks(text: &str, grid: &mut Grid, problems: &mut Problems) -> Option<()> {
+    let mut lines: Vec<(usize, &str)> = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        match line.trim_start().strip_prefix('#') {
+            Some(comment) => grid.comments.push((index + 1, comment.trim().to_owned())),
+            None => lines.push((index + 1, line)),
+        }
+    }
+    let fields: usize = lines.iter().map(|(_, line)| line.split_whitespace().count()).sum();
+    refuse_large(lines.len(), fields, lines.last().map_or(0, |(row, _)| *row), problems)?;
+    grid.rows = blanks::rows(&lines, problems)?;
+    Some(())
+}
+
+fn refuse_large(rows: usize, cells: usize, line: usize, problems: &mut Problems) -> Option<()> {
+    if rows <= MOST_ROWS && cells <= MOST_CELLS {
+        return Some(());
+    }
+    let message = format!("more than {MOST_ROWS} rows or {MOST_CELLS} cells");
+    problems.error("E312", FilePosition::row(line), message, "");
+    None
+}
+
+fn split_at_separators(text: &str, grid: &mut Grid, problems: &mut Problems) -> Option<()> {
+    let separator = grid.separator;
     let (mut line, mut cells) = (1, 0);
     let mut rest = text;
     while !rest.is_empty() {
@@ -115,15 +171,11 @@ pub(super) fn split(text: &str, separator: Option<char>, problems: &mut Problems
         let (row, lines, left) = record(rest, line, separator, problems)?;
         cells += row.len();
         grid.rows.push(row);
-        if grid.rows.len() > MOST_ROWS || cells > MOST_CELLS {
-            let message = format!("more than {MOST_ROWS} rows or {MOST_CELLS} cells");
-            problems.error("E312", FilePosition::row(line), message, "");
-            return None;
-        }
+        refuse_large(grid.rows.len(), cells, line, problems)?;
         line += lines;
         rest = left;
     }
-    Some(grid)
+    Some(())
 }
 
 /// One row from the start of `rest`: its fields, the lines it takes, and what follows.
@@ -216,7 +268,15 @@ mod tests {
         assert_eq!(texts("x;1,5;2\n0;1,5;2\n").1, ';');
         assert_eq!(texts("x\t1,5\t2\n0\t1,5\t2\n").1, '\t');
         assert_eq!(texts("x|1.5\n0|2\n").1, '|');
+        assert_eq!(texts("x 1.5\n0 2\n").1, ' ');
         assert_eq!(texts("\"a;b\",1\n2,3\n").1, ',');
+    }
+
+    #[test]
+    fn a_comment_over_numbers_is_their_header() {
+        assert_eq!(texts("# made by hand\n# x 0.5 1\n0 1 2\n10 2 3\n").0[0], row(&["x", "0.5", "1"]));
+        assert_eq!(texts("# x, 0.5, 1\n0,1,2\n10,2,3\n").0[0], row(&["x", "0.5", "1"]));
+        assert_eq!(texts("# T = 3 m\n0 1 2\n10 2 3\n").0[0], row(&["0", "1", "2"]));
     }
 
     #[test]

@@ -202,7 +202,6 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings, problems: &mut Proble
 
 /// Length, breadth and depth in the numbers of a matrix whose rows are these; none where its headers are no numbers.
 fn extents(fields: &[Vec<Field>], rows: Rows) -> Option<[f64; 3]> {
-    let number = |field: &Field| field.trimmed().replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite());
     let extent = |all: Option<Vec<f64>>| {
         let all = all?;
         let ends = all.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], n| [a.min(*n), b.max(*n)]);
@@ -252,6 +251,20 @@ fn transposed(fields: Vec<Vec<Field>>) -> Vec<Vec<Field>> {
     columns
 }
 
+fn number(field: &Field) -> Option<f64> {
+    field.trimmed().replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite())
+}
+
+/// Whether numbers have neither stations nor waterlines beside them: the first field is one of them, or the first row or
+/// column does not rise or fall. A corner of zero, as programs fill it in, says nothing.
+fn is_bare(fields: &[Vec<Field>]) -> bool {
+    let heads: Option<Vec<f64>> = fields[0].iter().map(number).collect();
+    let Some(heads) = heads else { return false };
+    let lines: Option<Vec<f64>> = fields.iter().skip(1).map(|row| number(&row[0])).collect();
+    let orderly = |all: &[f64]| all.windows(2).all(|w| w[1] > w[0]) || all.windows(2).all(|w| w[1] < w[0]);
+    heads[0].abs() > 0.0 || !orderly(&heads[1..]) || !lines.is_some_and(|lines| orderly(&lines))
+}
+
 /// Whether a header is words alone, without a number.
 fn is_word(field: &Field) -> bool {
     !field.text.bytes().any(|b| b.is_ascii_digit()) && !field.is_blank()
@@ -273,6 +286,14 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
         let message =
             format!("{} of {}: no table of offsets", counted(fields.len(), "row"), counted(fields[0].len(), "field"));
         problems.error("E300", &fields[0][0], message, "A matrix has a row of headers and rows of offsets below it");
+        return None;
+    }
+    if is_bare(&fields) {
+        let message =
+            "half-breadths alone: no field of the first row is a word, and its numbers are no positions".to_owned();
+        let remedy = "Write the heights of the waterlines above them, the distances of the stations before them, and 'x [m]' \
+                      where the two meet";
+        problems.error("E300", &fields[0][0], message, remedy);
         return None;
     }
     let (rows, reason) = orientation(&fields, settings, problems);

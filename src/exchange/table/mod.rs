@@ -7,6 +7,7 @@
 //! at most [`MOST_LINES`].
 
 mod assemble;
+mod blanks;
 mod body;
 mod britfair;
 mod checks;
@@ -186,7 +187,8 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
     let decimal_comma =
         layout != TableLayout::Pairs && settings.decimal_comma.unwrap_or_else(|| commas(&grid.rows, grid.separator));
     let form = TableForm {
-        separator: grid.separator,
+        // A blank cell has no place between blanks.
+        separator: if grid.separator == ' ' { ',' } else { grid.separator },
         decimal_comma,
         carriage_returns: grid.carriage_returns,
         open_end: grid.open_end,
@@ -244,6 +246,7 @@ fn matrix(
         first.reason,
         match grid.separator {
             '\t' => "tabs".to_owned(),
+            ' ' => "blanks".to_owned(),
             c => format!("'{c}'"),
         },
         if form.decimal_comma { ", decimal commas" } else { "" }

@@ -16,7 +16,7 @@
 //! spaces = 20                 # station numbers in Lpp
 //! waterline_spacing = 0.6     # between the numbers of WL 1, WL 2, ...
 //! Lpp = 62.0                  # B, T, D likewise
-//! separator = ";"             # , ; | tab
+//! separator = ";"             # , ; | tab blank
 //! decimal = ","               # , .
 //! axes = "x -z y"             # of a body of triangles or surfaces: our x, y, z in terms of the file's
 //! up = "y"                    # of a body: the file's axis that points up, instead of all three
@@ -229,7 +229,7 @@ impl Settings {
             "T" => self.stated.draught = Some(length(key, value)?),
             "D" => self.stated.depth = Some(length(key, value)?),
             "separator" => {
-                let all = [(",", ','), (";", ';'), ("|", '|'), ("tab", '\t'), ("\t", '\t')];
+                let all = [(",", ','), (";", ';'), ("|", '|'), ("tab", '\t'), ("\t", '\t'), ("blank", ' '), (" ", ' ')];
                 self.separator = Some(choice(key, value, &all)?);
             }
             "decimal" => self.decimal_comma = Some(choice(key, value, &[(",", true), (".", false)])?),
@@ -294,7 +294,7 @@ fn choice<T: Copy>(key: &str, value: &Value, all: &[(&str, T)]) -> Result<T, (St
         _ => "",
     };
     all.iter().find(|(name, _)| name.eq_ignore_ascii_case(word)).map(|(_, item)| *item).ok_or_else(|| {
-        let names: Vec<&str> = all.iter().map(|(name, _)| *name).filter(|name| *name != "\t").collect();
+        let names: Vec<&str> = all.iter().map(|(name, _)| *name).filter(|name| !name.trim().is_empty()).collect();
         (format!("{key} is {}", found(value)), format!("Known are {}", names.join(", ")))
     })
 }
