@@ -43,6 +43,18 @@ fn ship() -> (Vec<String>, Vec<String>, Vec<Vec<String>>) {
     (xs, zs, table)
 }
 
+/// One row a point, written by `row` of the indices and the texts of x, z and y.
+fn long(head: &str, row: impl Fn(usize, usize, [&str; 3]) -> String) -> String {
+    let (xs, zs, table) = ship();
+    let mut text = format!("{head}\n");
+    for (i, (x, line)) in xs.iter().zip(&table).enumerate() {
+        for (j, (z, y)) in zs.iter().zip(line).enumerate() {
+            writeln!(text, "{}", row(i, j, [x, z, y])).unwrap();
+        }
+    }
+    text
+}
+
 /// The matrix with these fields between its columns.
 fn matrix(corner: &str, separator: &str) -> String {
     let (xs, zs, table) = ship();
@@ -93,6 +105,59 @@ fn half_breadths_alone_ask_for_positions() {
             &["E300 t.csv row 1, column 1: '0.000': half-breadths alone", "heights of the waterlines above them"],
         );
     }
+}
+
+#[test]
+fn one_point_a_row_under_any_header() {
+    let plain = |_: usize, _: usize, [x, z, y]: [&str; 3]| format!("{x},{z},{y}");
+    for head in ["station,waterline,half_breadth", "x,z,y", "Station,Height,Offset", "x [m],wl,Half-breadth [m]"] {
+        displaces("plain.csv", &long(head, plain));
+    }
+    displaces(
+        "named.csv",
+        &long("hull,station_id,waterline_id,x,z,y", |i, j, [x, z, y]| format!("a,{i},{j},{x},{z},{y}")),
+    );
+    displaces("index.csv", &long(",station,wl,offset", |i, j, [x, z, y]| format!("{},{x},{z},{y}", 8 * i + j)));
+    displaces("blanks.txt", &long("i x y z", |i, j, [x, z, y]| format!("{} {x} {y} {z}", 8 * i + j)));
+    let mm = |text: &str| format!("{:.0}", 1e3 * text.parse::<f64>().unwrap());
+    displaces("mm.csv", &long("x_m,z_mm,y_mm", |_, _, [x, z, y]| format!("{x},{},{}", mm(z), mm(y))));
+    let semicolons = long("x;z;half-breadth", |_, _, [x, z, y]| format!("{x};{z};{y}").replace('.', ","));
+    displaces("semicolons.csv", &semicolons);
+}
+
+#[test]
+fn columns_that_only_count_ask_for_positions() {
+    let counted = long("i,j,y", |i, j, [_, _, y]| format!("{i},{j},{y}"));
+    among(&problems(&counted), &["E310 t.csv row 1: the columns count stations and waterlines", "columns x and z"]);
+}
+
+#[test]
+fn fractions_ask_for_the_main_dimensions() {
+    let fraction = |text: &str, of: f64| text.parse::<f64>().unwrap() / of;
+    let text = long("x_frac,z_frac,y_frac", |_, _, [x, z, y]| {
+        format!("{:.4},{:.4},{:.5}", fraction(x, 100.0), fraction(z, 4.0), fraction(y, 6.0))
+    });
+    among(&problems(&text), &["E327", "fractions; missing, or not above 0: L (Lpp), B, T"]);
+    let comment = "# Lpp = 100 m, B = 12 m, T = 4 m\n";
+    displaces("words.csv", &format!("{comment}{text}"));
+    displaces("over.csv", &format!("{comment}{}", text.replacen("x_frac,z_frac,y_frac", "x/L,z/T,y/(B/2)", 1)));
+    let alone = text.replacen("x_frac,z_frac,y_frac", "station,waterline,frac", 1);
+    displaces("alone.csv", &format!("{comment}{alone}"));
+    among(&warnings(&format!("{comment}{alone}"), ""), &["W320", "half-breadths are fractions"]);
+    // Half of all: of B, or of B/2?
+    let half = long("x [m],z [m],y_frac", |_, _, [x, z, y]| format!("{x},{z},{:.5}", fraction(y, 8.0)));
+    among(&problems(&format!("{comment}{half}")), &["E310", "fractions of B or of B/2"]);
+}
+
+#[test]
+fn numbers_of_stations_and_waterlines_in_columns_are_settled() {
+    let text = long("station,waterline,half_breadth", |i, j, [_, _, y]| format!("{i},{j},{y}"));
+    let found = warnings(&text, "");
+    among(&found, &["W320", "waterlines 0 to 7 may be numbers"]);
+    among(&found, &["W320", "stations are numbered and neither L_PP nor their spacing is known"]);
+    let beside = "[table]\nstation_spacing = 10\nwaterline_spacing = 0.5\nstations = \"numbers from AP\"\n";
+    let table = read_table_with("t.csv", text.as_bytes(), Some(("t.toml", beside))).unwrap().table;
+    assert!((table.stations[10].station.x - 100.0).abs() < 1e-9 && (table.waterlines[7] - 3.5).abs() < 1e-9);
 }
 
 /// The boat in feet, inches and eighths, each cell written by `write`.

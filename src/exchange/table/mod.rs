@@ -11,6 +11,7 @@ mod blanks;
 mod body;
 mod britfair;
 mod checks;
+mod columns;
 mod delftship;
 mod fields;
 mod formats;
@@ -19,6 +20,7 @@ mod ghs;
 mod grid;
 mod header;
 mod lines;
+mod long;
 mod matrix;
 mod michlet;
 mod outline;
@@ -175,7 +177,7 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
     }
     triples::settle(&mut grid.rows, problems);
     let layout = settings.layout.unwrap_or_else(|| {
-        if tidy::is_tidy(&grid.rows) {
+        if tidy::is_tidy(&grid.rows) || long::is_long(&grid.rows) {
             TableLayout::Tidy
         } else if pairs::is_pairs(&grid.rows, grid.separator) {
             TableLayout::Pairs
@@ -196,6 +198,10 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
         ..TableForm::default()
     };
     let mut table = match layout {
+        TableLayout::Tidy if long::is_long(&grid.rows) => {
+            problems.note("one point a row".to_owned());
+            long::read(&grid.rows, form, settings, problems)?
+        }
         TableLayout::Tidy => {
             problems.note("one offset a row".to_owned());
             tidy::read(&grid.rows, form, settings, problems)?

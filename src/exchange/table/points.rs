@@ -1,10 +1,14 @@
 //! Sections as rows of points: CSV with the columns x, y, z and perhaps station, loop and point, and Maxsurf markers
 //! (`Station`, x or longitudinal position, y or offset, z or height, separated by tabs).
 //!
-//! The head names the columns; a unit after a name is mm, m or ft (`y_m`, `Offset m`, `z [mm]`). Rows of one station,
+//! The head names the columns; a unit may follow a name (`y_m`, `Offset m`, `z [mm]`). Rows of one station,
 //! or, without stations, of one x, are a section; each of its loops is a branch. Points are taken in the order of the
 //! column `point` or, without one, of the rows, and turned round when a branch begins above its end.
 
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use super::columns::{self, Column};
 use super::fields::{Separator, TextLine, finish, lines};
 use super::outline::{point, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
@@ -16,45 +20,12 @@ use crate::hull::{OutlinePoint, StatedParticulars};
 /// Points of one section are at one x when they are so near \[m\].
 const SAME_X: f64 = 1e-6;
 
-/// What a column holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Column {
-    Station,
-    X,
-    Loop,
-    Point,
-    Y,
-    Z,
-}
-
-/// A column name without its unit, and metres in the unit.
+/// What a column of points holds, metres in its unit, and whether x counts from AP; none for any other column.
 fn column(name: &str) -> Option<(Column, f64, bool)> {
-    let lower = name.trim().to_ascii_lowercase().replace(['[', ']', '(', ')'], " ");
-    let mut words: Vec<&str> = lower.split([' ', '_']).filter(|word| !word.is_empty()).collect();
-    let unit = match words.last().copied() {
-        Some("m") => Some(1.0),
-        Some("mm") => Some(1e-3),
-        Some("ft") => Some(0.3048),
-        _ => None,
-    };
-    if unit.is_some() && words.len() > 1 {
-        words.pop();
-    }
-    let unit = unit.unwrap_or(1.0);
-    let from_ap = words.ends_with(&["from", "ap"]);
-    if from_ap {
-        words.truncate(words.len() - 2);
-    }
-    let kind = match words.join(" ").trim_end_matches('.') {
-        "station" | "stn" | "st" | "section" => Column::Station,
-        "x" | "long. pos" | "longitudinal pos" | "longitudinal position" | "position" => Column::X,
-        "loop" | "branch" => Column::Loop,
-        "point" => Column::Point,
-        "y" | "offset" | "half-breadth" | "half breadth" => Column::Y,
-        "z" | "height" => Column::Z,
-        _ => return None,
-    };
-    Some((kind, unit, from_ap))
+    let named = columns::column(name).filter(|named| named.fraction.is_none())?;
+    let point =
+        matches!(named.column, Column::Station | Column::X | Column::Loop | Column::Point | Column::Y | Column::Z);
+    point.then(|| (named.column, named.unit.map_or(1.0, |unit| unit.metres(1.0)), named.from_ap))
 }
 
 fn head(text: &str) -> Option<(char, Vec<Option<Column>>)> {
@@ -65,12 +36,30 @@ fn head(text: &str) -> Option<(char, Vec<Option<Column>>)> {
 
 /// Whether the head names x, y and z and nothing else, or points or loops of stations or x.
 pub(super) fn recognise(_name: &str, text: &str) -> bool {
-    let Some((_, columns)) = head(text) else { return false };
+    let Some((mark, columns)) = head(text) else { return false };
     let has = |kind| columns.contains(&Some(kind));
     let points = has(Column::Point) || has(Column::Loop);
     let known = columns.iter().all(Option::is_some);
-    (has(Column::X) && has(Column::Y) && has(Column::Z) && (known || points))
+    (has(Column::X) && has(Column::Y) && has(Column::Z) && (known && is_grouped(text, mark, &columns) || points))
         || (points && (has(Column::Station) || has(Column::X)))
+}
+
+/// The text with decimal points for the decimal commas that another mark between columns allows.
+fn pointed(text: &str, mark: char) -> Cow<'_, str> {
+    let rows = || text.lines().filter(|line| !line.trim_start().starts_with('#')).skip(1);
+    let commas = mark != ',' && rows().any(|line| line.contains(',')) && !rows().any(|line| line.contains('.'));
+    if commas { Cow::Owned(text.replace(',', ".")) } else { Cow::Borrowed(text) }
+}
+
+/// Whether the rows of a station, or of an x, follow each other.
+fn is_grouped(text: &str, mark: char, columns: &[Option<Column>]) -> bool {
+    let at = |kind| columns.iter().position(|column| *column == Some(kind));
+    let Some(at) = at(Column::Station).or_else(|| at(Column::X)) else { return true };
+    let rows = text.lines().filter(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#')).skip(1);
+    let names: Vec<&str> = rows.filter_map(|line| line.split(mark).nth(at)).map(str::trim).collect();
+    let different: BTreeSet<&str> = names.iter().copied().collect();
+    // An x that comes again in disorder is an error of the file; waterlines one after the other bring all of them again.
+    names.chunk_by(|a, b| a == b).count() < 2 * different.len().max(2)
 }
 
 /// A row with its numbers.
@@ -90,6 +79,8 @@ struct PointRow<'a> {
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
     let mark = head(text).map_or(',', |(mark, _)| mark);
+    let pointed = pointed(text, mark);
+    let text = pointed.as_ref();
     let lines: Vec<TextLine<'_>> = lines(text, Separator::Exactly(mark))
         .into_iter()
         .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
@@ -102,7 +93,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let mut origin = XOrigin::Unknown;
     for (index, field) in head.fields.iter().enumerate() {
         let Some((kind, unit, from_ap)) = column(field.text) else {
-            let message = "a column is station, x, loop, point, y or z, perhaps with m, mm or ft".to_owned();
+            let message = "a column is station, x, loop, point, y or z, perhaps with a unit".to_owned();
             problems.error("E326", field, message, "Rename or remove it.");
             continue;
         };

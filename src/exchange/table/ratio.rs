@@ -73,15 +73,7 @@ pub fn read_with(name: &str, text: &str, sidecar: &StatedParticulars) -> Result<
     for (row, line) in comments(text) {
         comment(line, FilePosition::row(row), &mut stated, &mut layout, &mut problems);
     }
-    let missing: Vec<&str> =
-        [(stated.length_between_perpendiculars, "L (Lpp)"), (stated.breadth, "B"), (stated.draught, "T")]
-            .into_iter()
-            .filter_map(|(value, name)| value.is_none_or(|v| v <= 0.0).then_some(name))
-            .collect();
-    if !missing.is_empty() {
-        let message = format!("the table holds fractions; missing, or not above 0: {}", missing.join(", "));
-        let remedy =
-            "Write a line '# Lpp = ... m, B = ... m, T = ... m', or lpp, beam and draught in a TOML beside the table.";
+    if let Some((message, remedy)) = missing_dimensions(&stated, [true; 3]) {
         problems.error("E327", FilePosition::FILE, message, remedy);
     }
     let main = [stated.length_between_perpendiculars, stated.breadth, stated.draught].map(|v| v.unwrap_or(1.0));
@@ -91,6 +83,18 @@ pub fn read_with(name: &str, text: &str, sidecar: &StatedParticulars) -> Result<
         .collect();
     let table = fractions(&rows, main, &layout, &mut problems);
     finish(problems, table.map(|table| OffsetTable { stated, ..table }))
+}
+
+/// What is wrong, and the remedy, where one of L_PP, B and T that are `needed` is not stated.
+pub(super) fn missing_dimensions(stated: &StatedParticulars, needed: [bool; 3]) -> Option<(String, &'static str)> {
+    let all = [(stated.length_between_perpendiculars, "L (Lpp)"), (stated.breadth, "B"), (stated.draught, "T")];
+    let absent = |(value, _): &(Option<f64>, &str)| value.is_none_or(|v| v <= 0.0);
+    let missing = all.into_iter().zip(needed).filter(|(dimension, needed)| *needed && absent(dimension));
+    let names: Vec<&str> = missing.map(|((_, name), _)| name).collect();
+    let message = format!("the table holds fractions; missing, or not above 0: {}", names.join(", "));
+    let remedy =
+        "Write a line '# Lpp = ... m, B = ... m, T = ... m', or lpp, beam and draught in a TOML beside the table.";
+    (!names.is_empty()).then_some((message, remedy))
 }
 
 /// What comments say of the layout.

@@ -16,6 +16,7 @@
 //! rows is free.
 
 use super::assemble::{SAME, TableReader};
+use super::columns::{Column, column};
 use super::grid::{MOST_CELLS, MOST_LINES};
 use super::header::{Axis, Corner, Position, position, unit_of};
 use super::problem::{Field, FilePosition, Problems};
@@ -27,15 +28,8 @@ use crate::hull::{
     TableLayout,
 };
 
-/// The columns and other names for them.
-const COLUMNS: [(&str, &[&str]); 6] = [
-    ("station", &["station", "stn", "name"]),
-    ("x", &["x"]),
-    ("curve", &["curve", "kind"]),
-    ("z", &["z", "height"]),
-    ("y", &["y", "halfbreadth", "half_breadth"]),
-    ("flag", &["flag", "flags", "mark", "marks"]),
-];
+/// The columns in the order in which a row gives them.
+const COLUMNS: [Column; 6] = [Column::Station, Column::X, Column::Curve, Column::Z, Column::Y, Column::Flag];
 
 /// Kinds of curves.
 const CURVES: [&str; 13] =
@@ -45,14 +39,8 @@ const CURVES: [&str; 13] =
 type Columns = [Option<usize>; 6];
 
 fn columns(header: &[Field]) -> Columns {
-    COLUMNS.map(|(_, names)| {
-        header.iter().position(|field| {
-            let text = field.trimmed().to_lowercase();
-            let bare = text.split(['[', '(']).next().unwrap_or("").trim();
-            let bare = bare.strip_suffix("_m").or_else(|| bare.strip_suffix("_mm")).unwrap_or(bare);
-            names.contains(&bare)
-        })
-    })
+    let named: Vec<Option<Column>> = header.iter().map(|field| column(&field.text).map(|n| n.column)).collect();
+    COLUMNS.map(|wanted| named.iter().position(|column| *column == Some(wanted)))
 }
 
 /// Whether the first row has the columns of a tidy table.

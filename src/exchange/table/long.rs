@@ -1,0 +1,355 @@
+//! Tables of one point a row under any usual headers (see `columns`), as rows of a tidy table.
+//!
+//! Points on common heights are half-breadths at waterlines, all others are points of sections. Columns of indices are
+//! left out. Fractions of L_PP, T and B become metres.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::columns::{Column, Named, Whole, column};
+use super::fields::decimals;
+use super::outline::take_off_deck;
+use super::problem::{Field, FilePosition, Problems};
+use super::ratio::missing_dimensions;
+use super::sections::{decimals_in_metres, refuse_negative};
+use super::settings::Settings;
+use super::tidy;
+use crate::hull::{OffsetTable, TableForm};
+
+/// Station numbers follow each other in steps up to this.
+const LARGEST_STEP: f64 = 2.0;
+/// Heights over the draught are no larger.
+const MOST_DRAUGHTS: f64 = 3.0;
+
+/// The columns of a header.
+struct Columns {
+    all: Vec<Option<Named>>,
+}
+
+impl Columns {
+    fn of(header: &[Field]) -> Self {
+        Self { all: header.iter().map(|field| column(&field.text)).collect() }
+    }
+
+    fn find(&self, column: Column) -> Option<(usize, Named)> {
+        let place = |(at, named): (usize, &Option<Named>)| named.filter(|n| n.column == column).map(|n| (at, n));
+        self.all.iter().enumerate().find_map(place)
+    }
+
+    fn height(&self) -> Option<(usize, Named)> {
+        self.find(Column::Z).or_else(|| self.find(Column::Waterline))
+    }
+
+    fn indices(&self) -> usize {
+        self.all.iter().flatten().filter(|named| named.column == Column::Index).count()
+    }
+}
+
+/// Whether the first row names the columns of points and no kind of curve.
+pub(super) fn is_long(rows: &[Vec<Field>]) -> bool {
+    let Some(header) = rows.iter().find(|row| !row.is_empty()) else { return false };
+    let columns = Columns::of(header);
+    let is_word =
+        |(field, named): (&Field, &Option<Named>)| named.is_some() || field.text.contains(char::is_alphabetic);
+    let has = |column| columns.find(column).is_some();
+    let placed = columns.height().is_some() && (has(Column::X) || has(Column::Station));
+    has(Column::Y)
+        && !has(Column::Curve)
+        && header.iter().zip(&columns.all).all(is_word)
+        && (placed || columns.indices() > 1)
+}
+
+/// A point with its fields.
+struct Point {
+    station: Field,
+    x: Field,
+    z: Field,
+    y: Field,
+    flag: Field,
+}
+
+/// The table of a file of points.
+pub(super) fn read(
+    rows: &[Vec<Field>],
+    form: TableForm,
+    settings: &Settings,
+    problems: &mut Problems,
+) -> Option<OffsetTable> {
+    let header = rows.iter().find(|row| !row.is_empty())?;
+    let columns = Columns::of(header);
+    let mut settings = settings.clone();
+    units(&columns, &mut settings);
+    left_out(header, &columns, problems);
+    let comma = form.decimal_comma;
+    let mut points = points(rows, header, &columns, problems)?;
+    let digits = points.iter().map(|point| decimals(&point.y.text.replace(',', "."))).max().unwrap_or(0);
+    let scaled = fractions(&mut points, &columns, comma, &settings, problems)?;
+    distances(&mut points, &columns, comma, &settings, problems);
+    waterlines(&mut points, &columns, &settings, problems);
+    let curve = if on_waterlines(&points) { "WL" } else { "SEC" };
+    problems.note(match curve {
+        "WL" => "the points stand on common heights and are read as half-breadths at waterlines".to_owned(),
+        _ => "the points stand on different heights and are read as sections".to_owned(),
+    });
+    let mut table = tidy::read(&tidy_rows(points, curve), form, &settings, problems)?;
+    if curve == "SEC" {
+        sections(&mut table, problems);
+    }
+    if let Some(largest) = scaled {
+        table.form.decimals = Some(decimals_in_metres(digits, largest));
+    }
+    Some(table)
+}
+
+/// Units that the headers state.
+fn units(columns: &Columns, settings: &mut Settings) {
+    let unit = |found: Option<(usize, Named)>| found.and_then(|(_, named)| named.unit);
+    let along = columns.find(Column::X).or_else(|| columns.find(Column::Station));
+    let (x, y, z) = (unit(along), unit(columns.find(Column::Y)), unit(columns.height()));
+    settings.x_units = settings.x_units.or(settings.units).or(x);
+    settings.z_units = settings.z_units.or(settings.units).or(z);
+    settings.units = settings.units.or(y).or(x).or(z);
+}
+
+/// Names the columns that are not used.
+fn left_out(header: &[Field], columns: &Columns, problems: &mut Problems) {
+    let named = |index: bool| -> Vec<String> {
+        let fields = header.iter().zip(&columns.all);
+        let wanted = fields.filter(|(_, named)| match named {
+            Some(named) => index && named.column == Column::Index,
+            None => !index,
+        });
+        wanted.map(|(field, _)| format!("'{}'", field.trimmed())).collect()
+    };
+    let (indices, unknown) = (named(true), named(false));
+    if !indices.is_empty() {
+        problems.note(format!("columns that count or name are left out: {}", indices.join(", ")));
+    }
+    if !unknown.is_empty() {
+        let message = format!("left out: columns that are not known, {}", unknown.join(", "));
+        problems.warning("W332", FilePosition::row(header[0].row), message, "");
+    }
+}
+
+fn points(rows: &[Vec<Field>], header: &[Field], columns: &Columns, problems: &mut Problems) -> Option<Vec<Point>> {
+    let along = columns.find(Column::X).or_else(|| columns.find(Column::Station));
+    let (Some((along, _)), Some((height, _)), Some((y, _))) = (along, columns.height(), columns.find(Column::Y)) else {
+        let message = "the columns count stations and waterlines, and none says where they stand".to_owned();
+        let remedy = "Give columns x and z with their distances and heights";
+        problems.error("E310", FilePosition::row(header[0].row), message, remedy);
+        return None;
+    };
+    let blank = Field::default();
+    let mut points = Vec::new();
+    for row in rows.iter().filter(|row| !row.is_empty()).skip(1) {
+        if row.len() != header.len() {
+            let message = format!("the row has {} fields, the header has {}", row.len(), header.len());
+            problems.error("E307", FilePosition::row(row[0].row), message, "");
+            continue;
+        }
+        let optional = |column| columns.find(column).map_or(&blank, |(at, _)| &row[at]).clone();
+        points.push(Point {
+            station: optional(Column::Station),
+            x: row[along].clone(),
+            z: row[height].clone(),
+            y: row[y].clone(),
+            flag: optional(Column::Flag),
+        });
+    }
+    Some(points)
+}
+
+fn number(field: &Field, comma: bool) -> Option<f64> {
+    let text = field.trimmed();
+    if comma { text.replace(',', ".").parse().ok() } else { text.parse().ok() }.filter(|n: &f64| n.is_finite())
+}
+
+/// Replaces a plain number by a length in metres.
+fn scale(field: &mut Field, factor: f64, comma: bool) {
+    if let Some(value) = number(field, comma) {
+        let text = format!("{:.9}", factor * value);
+        let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        field.text = if comma { text.replace('.', ",") } else { text };
+    }
+}
+
+/// Makes metres of fractions; the length that a fraction of half-breadths is of \[m\], where they are such.
+fn fractions(
+    points: &mut [Point],
+    columns: &Columns,
+    comma: bool,
+    settings: &Settings,
+    problems: &mut Problems,
+) -> Option<Option<f64>> {
+    let of = |found: Option<(usize, Named)>| found.and_then(|(_, named)| named.fraction);
+    let along = of(columns.find(Column::X).or_else(|| columns.find(Column::Station)));
+    let (y, z) = (of(columns.find(Column::Y)), of(columns.height()));
+    if along.or(y).or(z).is_none() {
+        return Some(None);
+    }
+    // Beside fractions of the breadth, positions without a word may be fractions too: of one length, or of one draught.
+    let within = |least: f64, most: f64, field: fn(&Point) -> &Field| {
+        points.iter().filter_map(|point| number(field(point), comma)).all(|value| (least..=most).contains(&value))
+    };
+    let named = along.is_some() || z.is_some();
+    let along = along.is_some() || !named && within(-0.2, 1.2, |point| &point.x);
+    let z = z.is_some() || !named && within(-0.2, MOST_DRAUGHTS, |point| &point.z);
+    if !named && (along || z) {
+        let message = "half-breadths are fractions: positions up to 1.2 are taken as fractions of L_PP, heights up to 3 as fractions of T";
+        problems.warning(
+            "W320",
+            FilePosition::FILE,
+            message.to_owned(),
+            "Name such columns x/L and z/T, and others x [m] and z [m]",
+        );
+    }
+    let stated = &settings.stated;
+    if let Some(problem) = missing_dimensions(stated, [true; 3]) {
+        problems.error("E327", FilePosition::FILE, problem.0, problem.1);
+        return None;
+    }
+    let [length, breadth, draught] =
+        [stated.length_between_perpendiculars, stated.breadth, stated.draught].map(|v| v.unwrap_or(1.0));
+    let largest = points.iter().filter_map(|point| number(&point.y, comma)).map(f64::abs).fold(0.0, f64::max);
+    let half = match y {
+        Some(Whole::Breadth) => breadth,
+        Some(Whole::Unsaid) if (0.4..=0.55).contains(&largest) => {
+            let message = format!("half-breadths up to {largest} are taken as fractions of B, not of B/2");
+            problems.warning("W320", FilePosition::FILE, message, "Name the column y/B or y/(B/2)");
+            breadth
+        }
+        Some(Whole::Unsaid) if !(0.9..=1.1).contains(&largest) => {
+            let message = format!(
+                "half-breadths up to {largest} are fractions of B or of B/2, and the header does not say which"
+            );
+            problems.error("E310", FilePosition::FILE, message, "Name the column y/B or y/(B/2)");
+            return None;
+        }
+        _ => 0.5 * breadth,
+    };
+    for point in points.iter_mut() {
+        if along {
+            scale(&mut point.x, length, comma);
+        }
+        if z {
+            scale(&mut point.z, draught, comma);
+        }
+        if y.is_some() {
+            scale(&mut point.y, half, comma);
+        }
+    }
+    problems
+        .note(format!("fractions of L_PP {length} m, B {breadth} m and T {draught} m, where the headers name such"));
+    Some(y.map(|_| half))
+}
+
+/// Steps between the different plain numbers of some fields, smallest first; none where one is no number.
+fn steps<'p>(fields: impl Iterator<Item = &'p Field>, comma: bool) -> Option<(Vec<f64>, Vec<f64>)> {
+    let mut values: Vec<f64> = fields.map(|field| number(field, comma)).collect::<Option<_>>()?;
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let mut steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    Some((values, steps))
+}
+
+/// Stations without a column x: their numbers, which stay in the column of stations, or distances.
+fn distances(points: &mut [Point], columns: &Columns, comma: bool, settings: &Settings, problems: &mut Problems) {
+    let Some((_, named)) = columns.find(Column::Station).filter(|_| columns.find(Column::X).is_none()) else { return };
+    let numbered = settings.stations.map(|scale| scale.numbers);
+    let found = steps(points.iter().map(|point| &point.x), comma);
+    let median = found.as_ref().and_then(|(_, steps)| steps.get(steps.len() / 2).copied());
+    let by_size = median.is_some_and(|step| step > LARGEST_STEP);
+    let stated = named.unit.is_some() || named.fraction.is_some() || settings.station_spacing.is_some();
+    if numbered.is_none()
+        && !stated
+        && by_size
+        && let Some((values, _)) = &found
+    {
+        let message = format!(
+            "the column of stations holds {} to {} in steps of {}: taken as distances, not as numbers of stations",
+            values[0],
+            values[values.len() - 1],
+            median.unwrap_or_default()
+        );
+        problems.warning(
+            "W320",
+            FilePosition::FILE,
+            message,
+            "Name the column x, or give station_spacing in the conventions",
+        );
+    }
+    let lengths = named.unit.is_some() || named.fraction.is_some() || numbered == Some(false);
+    if !(lengths || numbered.is_none() && settings.station_spacing.is_none() && by_size) {
+        points.iter_mut().for_each(|point| point.x.text.clear());
+    }
+}
+
+/// Waterlines that follow each other in whole numbers are heights, or numbers that the conventions space.
+fn waterlines(points: &mut [Point], columns: &Columns, settings: &Settings, problems: &mut Problems) {
+    let named = columns.find(Column::Waterline).filter(|_| columns.find(Column::Z).is_none());
+    let Some((_, named)) = named.filter(|(_, named)| named.fraction.is_none()) else { return };
+    if let Some(spacing) = settings.waterline_spacing {
+        for field in points.iter_mut().map(|point| &mut point.z) {
+            if let Some(value) = number(field, false) {
+                field.text = format!("{} m", value * spacing);
+            }
+        }
+        return;
+    }
+    let Some((values, steps)) = steps(points.iter().map(|point| &point.z), false) else { return };
+    let follow =
+        steps.iter().all(|step| (step - 1.0).abs() < 1e-9) && values.len() > 2 && values[0].fract().abs() < 1e-9;
+    if follow && named.unit.or(settings.z_units).is_none() {
+        let message = format!(
+            "waterlines {} to {} may be numbers, and their spacing is not known: taken as heights",
+            values[0],
+            values[values.len() - 1]
+        );
+        let remedy = "Name the column z, or give waterline_spacing in the conventions";
+        problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
+}
+
+/// Whether the points stand where stations and waterlines cross: half of the crossings at least, and hardly one twice.
+fn on_waterlines(points: &[Point]) -> bool {
+    let place = |point: &Point| {
+        if point.x.is_blank() { point.station.trimmed().to_owned() } else { point.x.trimmed().to_owned() }
+    };
+    let stations: BTreeSet<String> = points.iter().map(place).collect();
+    let mut heights: BTreeMap<&str, usize> = BTreeMap::new();
+    for point in points {
+        *heights.entry(point.z.trimmed()).or_default() += 1;
+    }
+    let crossings: BTreeSet<(String, &str)> = points.iter().map(|point| (place(point), point.z.trimmed())).collect();
+    let twice = points.len() - crossings.len();
+    2 * points.len() > stations.len() * heights.len() && 4 * twice < stations.len()
+}
+
+fn tidy_rows(points: Vec<Point>, curve: &str) -> Vec<Vec<Field>> {
+    let word = |text: &str| Field { text: text.to_owned(), ..Field::default() };
+    let mut rows = vec![["station", "x", "curve", "z", "y", "flag"].map(word).to_vec()];
+    rows.extend(points.into_iter().map(|point| {
+        let Point { station, x, z, y, flag } = point;
+        vec![station, x, word(curve), z, y, flag]
+    }));
+    rows
+}
+
+/// Turns sections that begin at the deck, and takes lines on the deck off them.
+fn sections(table: &mut OffsetTable, problems: &mut Problems) {
+    for station in &mut table.stations {
+        for outline in &mut station.outlines {
+            if outline.len() > 1 && outline[0].z > outline[outline.len() - 1].z {
+                outline.reverse();
+            }
+            refuse_negative(outline, station.station.x, FilePosition::FILE, problems);
+        }
+        if let Some(deck) = station.outlines.last_mut().and_then(take_off_deck) {
+            station.deck_height = Some(deck.side.z);
+            station.deck_half_breadth = Some(deck.side.y);
+            station.deck_centre_height = Some(deck.centre_height);
+        }
+        let keel = station.outlines.iter().flatten().filter(|p| p.y.abs() <= 1e-9).map(|p| p.z);
+        station.keel_height = station.keel_height.or(keel.min_by(f64::total_cmp));
+    }
+}
