@@ -211,6 +211,29 @@ fn every_way_of_writing_feet_and_inches() {
     among(&problems("x [m],0.5,1\n0,1.5,1.2.3\n10,2.5,3.5\n"), &["E301 t.csv row 2, column 3: '1.2.3'"]);
 }
 
+#[test]
+fn a_row_for_several_stations() {
+    let text = read_text(case("stations-4-5-6.csv"));
+    for label in ["\"4,5,6\"", "4-6", "\"4, 5 & 6\"", "4 to 6", "4\u{2013}6", "4-5-6"] {
+        let read = read_table("t.csv", text.replacen("\"4,5,6\"", label, 1).as_bytes()).unwrap();
+        let names: Vec<&str> = read.table.stations.iter().map(|s| s.station.name.as_str()).collect();
+        assert_eq!(names, ["0", "1", "2", "4", "5", "6", "8", "9", "10"], "{label}");
+        for station in &read.table.stations[3..6] {
+            assert_eq!(station.half_breadths[2].value(), Some(11.2));
+        }
+        let stern: Vec<Option<f64>> = read.table.endings.iter().map(|ends| ends[0]).collect();
+        assert_eq!(stern, [None, None, None, Some(0.3), Some(1.5)]);
+    }
+    among(&warnings(&text, ""), &["W320", "the profile of the stern is at x 0.3 m on waterline 4 m", "are negative"]);
+    let stem = text.replace("STERN CONTOUR", "STEM CONTOUR");
+    among(&problems(&stem), &["E303", "the profile of the stem is at x 0.3 m", "beyond the middle of the stations"]);
+    // Among decimal commas 4,5 is a number, unless all other stations are whole.
+    let comma = "x;0,5;1\n4;1,5;2,5\n4,5;2,5;3,5\n5,5;2,5;3,5\n";
+    assert_eq!(read_table("t.csv", comma.as_bytes()).unwrap().table.stations.len(), 3);
+    let whole = "station;0,5;1\n3;1,5;2,5\n4,5;2,5;3,5\n6;2,5;3,5\n";
+    among(&warnings(whole, ""), &["W320", "'4,5' stands for the stations 4, 5, not for a decimal number"]);
+}
+
 fn cells(table: &OffsetTable, station: usize) -> Vec<Option<f64>> {
     table.stations[station].half_breadths.iter().map(Cell::value).collect()
 }

@@ -66,6 +66,51 @@ pub(super) fn endings(table: &mut OffsetTable, settings: &Settings, problems: &m
     }
 }
 
+/// Profiles that contradict the stations: a stern before the middle of them, a stem behind it, or either within stations that
+/// have a breadth at its height.
+pub(super) fn profiles(table: &OffsetTable, problems: &mut Problems) {
+    let xs = || table.stations.iter().map(|s| s.station.x);
+    let Some((low, high)) = xs().reduce(f64::min).zip(xs().reduce(f64::max)) else { return };
+    for (end, (name, word)) in [("stern", "aft of"), ("stem", "forward of")].into_iter().enumerate() {
+        let aft_of = |a: f64, b: f64| if end == 0 { a < b } else { a > b };
+        let given = || table.endings.iter().enumerate().filter_map(move |(j, ends)| Some((j, ends[end]?)));
+        if let Some((j, x)) = given().find(|&(_, x)| table.stations.len() > 1 && aft_of(0.5 * (low + high), x)) {
+            let message = format!(
+                "the profile of the {name} is at x {x} m on waterline {} m, beyond the middle of the stations, which is at {} m",
+                table.waterlines[j],
+                0.5 * (low + high)
+            );
+            problems.error(
+                "E303",
+                FilePosition::FILE,
+                message,
+                "Give x of the profiles forward of AP, as of the stations",
+            );
+            continue;
+        }
+        let within = given().filter_map(|(j, x)| {
+            let beyond = |s: &&StationOffsets| {
+                aft_of(s.station.x, x - if end == 0 { SAME } else { -SAME })
+                    && s.half_breadth(j).is_some_and(|y| y > 0.0)
+            };
+            Some((j, x, table.stations.iter().find(beyond)?))
+        });
+        let within: Vec<(usize, f64, &StationOffsets)> = within.collect();
+        if let Some((j, x, station)) = within.first() {
+            let message = format!(
+                "the profile of the {name} is at x {x} m on waterline {} m, and '{}' {word} it has a half-breadth of {} m there; \
+                 so on {}",
+                table.waterlines[*j],
+                station.station.name,
+                station.half_breadth(*j).unwrap_or_default(),
+                counted(within.len(), "waterline")
+            );
+            let remedy = "x counts forward of AP: distances aft of AP are negative";
+            problems.warning("W320", FilePosition::FILE, message, remedy);
+        }
+    }
+}
+
 /// Cells without hull among half-breadths, which no hull has: those that no chain of their like connects with an edge of
 /// the table, where the hull ends, and that touch no zero, which is where a bulb ends; and those of a station between others
 /// of which nothing is given. `absent` says of a cell whether it says that there is no hull, and nothing more.

@@ -83,7 +83,7 @@ pub(super) fn unit_of(text: &str) -> Option<Notation> {
 }
 
 /// Names of side columns and rows; the first of each kind is the one that we write.
-pub(super) const SIDES: [(&str, SideKind); 36] = [
+pub(super) const SIDES: [(&str, SideKind); 46] = [
     ("keel", SideKind::Keel),
     ("z keel", SideKind::Keel),
     ("keel height", SideKind::Keel),
@@ -116,10 +116,20 @@ pub(super) const SIDES: [(&str, SideKind); 36] = [
     ("x stern", SideKind::Stern),
     ("stern profile", SideKind::Stern),
     ("aft end", SideKind::Stern),
+    ("stern contour", SideKind::Stern),
+    ("contour of stern", SideKind::Stern),
+    ("profile of stern", SideKind::Stern),
+    ("aft contour", SideKind::Stern),
     ("stem", SideKind::Stem),
     ("x stem", SideKind::Stem),
     ("stem profile", SideKind::Stem),
     ("fore end", SideKind::Stem),
+    ("stem contour", SideKind::Stem),
+    ("contour of stem", SideKind::Stem),
+    ("profile of stem", SideKind::Stem),
+    ("bow contour", SideKind::Stem),
+    ("bow profile", SideKind::Stem),
+    ("fore contour", SideKind::Stem),
 ];
 
 /// The side column or row that a header names.

@@ -34,6 +34,7 @@ mod scale;
 mod seaway;
 mod sections;
 mod settings;
+mod several;
 mod sidecar;
 mod tidy;
 mod triples;
@@ -130,6 +131,7 @@ pub fn read_table_with<'a>(
     if let Some(table) = table.as_mut().filter(|_| !problems.any_errors()) {
         checks::missing(table, &mut problems);
         checks::whole(table, settings.full, &mut problems);
+        checks::profiles(table, &mut problems);
     } else if !problems.any_errors() {
         let message = "no table of offsets is recognised".to_owned();
         problems.error(
@@ -238,7 +240,8 @@ fn matrix(
     settings: &Settings,
     problems: &mut Problems,
 ) -> Option<OffsetTable> {
-    let (blocks, titles) = matrix::blocks(&grid.rows, settings, problems);
+    let (mut blocks, titles) = matrix::blocks(&grid.rows, settings, problems);
+    several::expand(&mut blocks, form.decimal_comma, problems);
     let first = blocks.first()?;
     let across = if first.across == header::Axis::Buttock { "buttock" } else { "waterline" };
     let (rows, columns) = match first.rows {
