@@ -234,6 +234,17 @@ fn a_row_for_several_stations() {
     among(&warnings(whole, ""), &["W320", "'4,5' stands for the stations 4, 5, not for a decimal number"]);
 }
 
+#[test]
+fn many_bad_cells_are_one_line() {
+    let mut text = "x [m],1,2,3\n".to_owned();
+    for row in 0..20 {
+        writeln!(text, "{row},abc,?{row},1").unwrap();
+    }
+    let found = problems(&text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    among(&found, &["E301 t.csv row 2, column 2", "so are 40 cells in all, rows 2 to 21, columns 2 to 3"]);
+}
+
 fn cells(table: &OffsetTable, station: usize) -> Vec<Option<f64>> {
     table.stations[station].half_breadths.iter().map(Cell::value).collect()
 }

@@ -33,6 +33,7 @@
 //! | W312 | more remarks than are shown |
 //! | N321 | what was detected: layout, separator, order, units |
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::hull::Cell;
@@ -95,6 +96,8 @@ impl fmt::Display for TableProblem {
 
 /// After so many errors, and after so many remarks, the rest is only counted.
 const MOST_LISTED: usize = 100;
+/// More errors of cells that are alike, but for what stands in the cells, are one.
+const MOST_ALIKE: usize = 4;
 
 /// A place in a file; rows and columns from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -187,11 +190,49 @@ fn quoted(text: &str) -> String {
     if shown.chars().count() > 40 { shown.chars().take(37).chain("...".chars()).collect() } else { shown }
 }
 
+/// Errors that are alike: how many, and the rows and columns from the first to the last.
+#[derive(Debug, Clone, Copy)]
+struct Alike {
+    count: usize,
+    rows: [usize; 2],
+    columns: [usize; 2],
+}
+
+impl Alike {
+    /// `40 cells in all, rows 2 to 21, columns 2 to 3`.
+    fn words(&self) -> String {
+        let range = |noun: &str, [first, last]: [usize; 2]| {
+            if first == last { format!(", {noun} {first}") } else { format!(", {noun}s {first} to {last}") }
+        };
+        let rows = range("row", self.rows);
+        match self.columns {
+            [0, _] => format!("{} in all{rows}", counted(self.count, "row")),
+            columns => format!("{} in all{rows}{}", counted(self.count, "cell"), range("column", columns)),
+        }
+    }
+
+    fn join(&mut self, other: &Self) {
+        let outer = |a: [usize; 2], b: [usize; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        self.count += other.count;
+        self.rows = outer(self.rows, other.rows);
+        self.columns = outer(self.columns, other.columns);
+    }
+}
+
+/// Code, message and remedy without their numbers.
+type Cause = (&'static str, String, String);
+
+fn cause(code: &'static str, message: &str, remedy: &str) -> Cause {
+    let bare = |text: &str| text.chars().filter(|c| !c.is_ascii_digit() && !matches!(c, '.' | '-' | ',')).collect();
+    (code, bare(message), bare(remedy))
+}
+
 /// Everything that was noticed while a table was read.
 #[derive(Debug)]
 pub(super) struct Problems {
     file: String,
     list: Vec<TableProblem>,
+    alike: BTreeMap<Cause, Alike>,
     errors: usize,
     remarks: usize,
     /// Most digits after the decimal point of the lengths that were read from text.
@@ -200,7 +241,23 @@ pub(super) struct Problems {
 
 impl Problems {
     pub(super) fn new(file: &str) -> Self {
-        Self { file: file.to_owned(), list: Vec::new(), errors: 0, remarks: 0, decimals: 0 }
+        Self { file: file.to_owned(), list: Vec::new(), alike: BTreeMap::new(), errors: 0, remarks: 0, decimals: 0 }
+    }
+
+    /// An empty list about the same file.
+    pub(super) fn alike(&self) -> Self {
+        Self::new(&self.file)
+    }
+
+    /// Takes over what was noticed in another list.
+    pub(super) fn absorb(&mut self, other: Self) {
+        self.errors += other.errors;
+        self.remarks += other.remarks;
+        self.decimals = self.decimals.max(other.decimals);
+        self.list.extend(other.list);
+        for (key, alike) in other.alike {
+            self.alike.entry(key).and_modify(|own| own.join(&alike)).or_insert(alike);
+        }
     }
 
     /// Whether an error was noticed.
@@ -216,6 +273,9 @@ impl Problems {
         message: String,
         remedy: &str,
     ) {
+        if severity == Severity::Error && self.is_one_more(code, &spot, &message, remedy) {
+            return;
+        }
         let count = if severity == Severity::Error { &mut self.errors } else { &mut self.remarks };
         *count += 1;
         if *count > MOST_LISTED {
@@ -224,6 +284,28 @@ impl Problems {
         let QuotedPosition { place: FilePosition { row, column }, found } = spot;
         let (file, found, remedy) = (self.file.clone(), quoted(found), remedy.to_owned());
         self.list.push(TableProblem { severity, code, file, row, column, found, message, remedy });
+    }
+
+    /// Counts an error of a cell or a row; whether it is one more of many that are alike.
+    fn is_one_more(&mut self, code: &'static str, spot: &QuotedPosition<'_>, message: &str, remedy: &str) -> bool {
+        let Some(row) = spot.place.row.filter(|_| self.alike.len() <= MOST_LISTED) else { return false };
+        let own = Alike { count: 1, rows: [row; 2], columns: [spot.place.column.unwrap_or(0); 2] };
+        let alike = self.alike.entry(cause(code, message, remedy)).or_insert(Alike { count: 0, ..own });
+        alike.join(&own);
+        alike.count > MOST_ALIKE
+    }
+
+    /// Makes one error of many that are alike: the first, with the range of all.
+    fn collapse(&mut self) {
+        for (of, alike) in std::mem::take(&mut self.alike).into_iter().filter(|(_, alike)| alike.count > MOST_ALIKE) {
+            let same = |p: &TableProblem| p.row.is_some() && cause(p.code, &p.message, &p.remedy) == of;
+            let Some(mut first) = self.list.iter().find(|p| same(p)).cloned() else { continue };
+            let before = self.list.len();
+            self.list.retain(|p| !same(p));
+            self.errors -= (before - self.list.len()).saturating_sub(1);
+            first.message += &format!("; so are {}", alike.words());
+            self.list.push(first);
+        }
     }
 
     /// An error.
@@ -257,6 +339,7 @@ impl Problems {
     /// The errors in the order of rows and columns, with what was detected after them; or the remarks when there is no
     /// error.
     pub(super) fn finish(mut self) -> Result<Vec<TableProblem>, Vec<TableProblem>> {
+        self.collapse();
         // What was detected helps to understand the errors; it comes after them.
         self.list.sort_by_key(|p| (p.severity, p.row.unwrap_or(0), p.column.unwrap_or(0)));
         for (severity, code, count) in
@@ -283,7 +366,7 @@ mod tests {
     fn many_problems_are_counted() {
         let mut problems = Problems::new("a");
         for row in 0..1000 {
-            problems.error("E321", (FilePosition::row(1000 - row), "x"), "bad".to_owned(), "");
+            problems.error("E321", (FilePosition::row(1000 - row), "x"), format!("bad {}", "x".repeat(row)), "");
             problems.warning("W332", FilePosition::row(row + 1), "odd".to_owned(), "");
         }
         let list = problems.finish().unwrap_err();
@@ -297,6 +380,21 @@ mod tests {
         );
         assert_eq!(remarks[MOST_LISTED].code, "W312");
         assert_eq!(list.len(), 2 * MOST_LISTED + 2);
+    }
+
+    #[test]
+    fn errors_that_are_alike_are_one() {
+        let mut problems = Problems::new("a");
+        for row in 2..30 {
+            for column in 3..20 {
+                problems.error("E301", &Field { text: format!("{row}"), row, column }, "bad".to_owned(), "Mend it");
+            }
+        }
+        let list = problems.finish().unwrap_err();
+        assert_eq!(list.len(), 1);
+        let expected =
+            "E301 a row 2, column 3: '2': bad; so are 476 cells in all, rows 2 to 29, columns 3 to 19. Mend it";
+        assert_eq!(list[0].to_string(), expected);
     }
 
     #[test]
