@@ -235,6 +235,80 @@ fn a_row_for_several_stations() {
 }
 
 #[test]
+fn workbooks_as_people_lay_them_out() {
+    for name in ["group_header2", "notes_below", "offset_block", "second_sheet", "textcomma", "units_row"] {
+        let found = volume(&case(&format!("{name}.xlsx")), 4.0);
+        assert!((found - 3151.9).abs() < 0.5, "{name}: {found}");
+    }
+}
+
+/// The rows of the plain table as fields.
+fn plain_rows() -> Vec<Vec<String>> {
+    matrix("x [m]", ",").lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+fn csv(rows: &[Vec<String>]) -> String {
+    rows.iter().map(|row| row.join(",") + "\n").collect()
+}
+
+/// Rows beside others, with an empty column between them.
+fn beside(left: &[Vec<String>], right: &[Vec<String>]) -> String {
+    let rows = (0..left.len().max(right.len())).map(|k| {
+        let row = left.get(k).cloned().unwrap_or_else(|| vec![String::new(); left[0].len()]);
+        [row, vec![String::new()], right.get(k).cloned().unwrap_or_default()].concat()
+    });
+    csv(&rows.collect::<Vec<_>>())
+}
+
+#[test]
+fn pieces_around_and_beside_a_table() {
+    let rows = plain_rows();
+    let texts = |texts: &[&str]| texts.iter().map(|&text| text.to_owned()).collect::<Vec<String>>();
+    displaces("blank-row.csv", &csv(&[&rows[..5], &[Vec::new()], &rows[5..]].concat()));
+    displaces(
+        "notes.csv",
+        &csv(&[&rows[..], &[texts(&["Note: to the moulded surface"]), texts(&["Checked by N.N."])]].concat()),
+    );
+    displaces("group.csv", &csv(&[&[texts(&["", "Half Breadth from C.L."])], &rows[..]].concat()));
+    let shifted: Vec<Vec<String>> = rows.iter().map(|row| [texts(&["", ""]), row.clone()].concat()).collect();
+    displaces("shifted.csv", &csv(&shifted));
+    let columns = |from: usize, to: usize| rows.iter().map(|row| row[from..to].to_vec()).collect::<Vec<_>>();
+    let stations = |from: usize, to: usize| {
+        columns(from, to).into_iter().zip(&rows).map(|(c, r)| [vec![r[0].clone()], c].concat())
+    };
+    displaces("waterlines.csv", &beside(&columns(0, 5), &stations(5, 9).collect::<Vec<_>>()));
+    displaces("gap.csv", &beside(&columns(0, 5), &columns(5, 9)));
+    displaces("stations.csv", &beside(&rows[..6], &[&rows[..1], &rows[6..]].concat()));
+    let curves: Vec<Vec<String>> =
+        [["T [m]", "Volume [m3]"], ["1", "500"], ["2", "1200"]].iter().map(|row| texts(row)).collect();
+    displaces("hydrostatics.csv", &beside(&rows, &curves));
+    let other: Vec<Vec<String>> =
+        rows.iter().map(|row| [row[..1].to_vec(), vec!["1".to_owned(); 8]].concat()).collect();
+    let other = [&rows[..1], &other[1..]].concat();
+    among(&problems(&beside(&rows, &other)), &["E306", "a second block of half-breadths"]);
+    // Heights at buttocks without a word are no waterlines.
+    let heights: Vec<Vec<String>> =
+        rows.iter().map(|row| texts(&[&row[0], if row[0] == "x [m]" { "7" } else { "0.3" }])).collect();
+    among(&problems(&beside(&rows, &heights)), &["E306", "a second block of half-breadths"]);
+}
+
+#[test]
+fn words_around_a_table_state_its_units_and_dimensions() {
+    let table = "Lpp,20\nT [mm],800\n\nx,0,0.5,1\nm,mm,mm,mm\n0,100,200,300\n10,200,300,400\n20,0,100,200\n";
+    let read = read_table("t.csv", table.as_bytes()).unwrap().table;
+    assert_eq!((read.stated.length_between_perpendiculars, read.stated.draught), (Some(20.0), Some(0.8)));
+    assert_eq!(read.stations[1].half_breadths[0].value(), Some(0.2));
+    assert!((read.waterlines[1] - 0.5).abs() < 1e-12 && (read.stations[2].station.x - 20.0).abs() < 1e-12);
+    let feet = "Offsets in feet\nx,0,1\n0,1,2\n10,2,3\n";
+    let read = read_table("t.csv", feet.as_bytes()).unwrap().table;
+    assert!((read.stations[1].half_breadths[1].value().unwrap() - 0.9144).abs() < 1e-12);
+    let full = "Full breadths\nx [m],0,1\n0,1,2\n10,2,3\n";
+    among(&warnings(full, ""), &["W320", "full breadths, by 'Full breadths'"]);
+    among(&problems("x [m],0,1\nmm,m,m\n0,1,2\n10,2,3\n"), &["E305", "the header states m, and the row below it mm"]);
+    among(&problems("x [m],0,1\nm,m,ft\n0,1,2\n10,2,3\n"), &["E305", "offsets in m and in ft"]);
+}
+
+#[test]
 fn many_bad_cells_are_one_line() {
     let mut text = "x [m],1,2,3\n".to_owned();
     for row in 0..20 {

@@ -1,10 +1,11 @@
 //! The layout of matrices: which lines are stations, which are waterlines or buttocks, which stand beside them.
 //!
-//! One block is a header and the rows below it, to an empty line or the end of the file. What the rows are is taken
+//! One block is a header and the rows below it (see `pieces`). What the rows are is taken
 //! from the conventions, else from the words of the headers, else from the numbers: a hull tapers to both of its ends,
 //! and does not taper upwards.
 
 use super::header::{Axis, Corner, axis_of, side_of};
+use super::pieces::Piece;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::Settings;
 use crate::hull::{Rows, SideKind};
@@ -55,28 +56,9 @@ pub(super) struct Block {
     pub(super) trailing: bool,
 }
 
-/// The blocks of a file, and the titles above the first.
-pub(super) fn blocks(rows: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> (Vec<Block>, Vec<Field>) {
-    let mut blocks = Vec::new();
-    let mut titles = Vec::new();
-    for part in rows.split(|row| row.is_empty()).filter(|part| !part.is_empty()) {
-        let mut part = part;
-        // A line with a single text above a table is its title.
-        while let [title, ..] = part
-            && title.iter().filter(|f| !f.is_blank()).count() == 1
-            && part.get(1).is_none_or(|next| next.len() > 1)
-            && title[0].text.chars().any(char::is_alphabetic)
-            && (part.len() > 1 || blocks.is_empty())
-            && part.get(1).is_none_or(|next| next.iter().filter(|f| !f.is_blank()).count() > 1)
-        {
-            titles.extend(title.iter().find(|f| !f.is_blank()).cloned());
-            part = &part[1..];
-        }
-        if !part.is_empty() {
-            blocks.extend(block(part, settings, problems));
-        }
-    }
-    (blocks, titles)
+/// The blocks of the tables of a file.
+pub(super) fn blocks(tables: &[Piece], settings: &Settings, problems: &mut Problems) -> Vec<Block> {
+    tables.iter().filter_map(|piece| block(piece, settings, problems)).collect()
 }
 
 /// A rectangle of fields, without an empty last column; rows of other lengths are errors.
@@ -280,8 +262,8 @@ fn is_positions(field: &Field, stations: bool) -> bool {
     side_of(text).is_none() && (crossed || named)
 }
 
-fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> Option<Block> {
-    let (fields, trailing) = rectangle(part, problems)?;
+fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<Block> {
+    let (fields, trailing) = rectangle(&piece.rows, problems)?;
     if fields.len() < 2 || fields[0].len() < 2 {
         let message =
             format!("{} of {}: no table of offsets", counted(fields.len(), "row"), counted(fields[0].len(), "field"));
@@ -313,6 +295,7 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
     let across =
         if rows == Rows::Waterlines { says.rows.filter(|a| !a.is_station()).or(says.columns) } else { says.columns };
     let buttocks = across == Some(Axis::Buttock)
+        || across.is_none() && piece.texts.iter().any(|text| axis_of(&text.text) == Some(Axis::Buttock))
         || heads.iter().skip(left + 1).any(|f| axis_of(&f.text) == Some(Axis::Buttock) && side_of(&f.text).is_none());
     let mut block = Block {
         corner,

@@ -6,6 +6,7 @@
 //! assumed is a note. Cost: linear in the file, and in the square of the number of lines, of which there are
 //! at most [`MOST_LINES`].
 
+mod around;
 mod assemble;
 mod blanks;
 mod body;
@@ -19,6 +20,7 @@ mod freeship;
 mod ghs;
 mod grid;
 mod header;
+mod joined;
 mod lines;
 mod long;
 mod matrix;
@@ -27,6 +29,7 @@ mod outline;
 mod pairs;
 mod pdstrip;
 mod pias;
+mod pieces;
 mod points;
 mod problem;
 mod ratio;
@@ -35,6 +38,7 @@ mod seaway;
 mod sections;
 mod settings;
 mod several;
+mod sheets;
 mod sidecar;
 mod tidy;
 mod triples;
@@ -147,24 +151,27 @@ pub fn read_table_with<'a>(
 
 /// The table of a file of fields: CSV, TSV or XLSX.
 fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Option<OffsetTable> {
-    let mut sheet = None;
-    let (mut grid, text) = if xlsx::is_xlsx(bytes) {
-        let (grid, name) = workbook::grid(bytes, problems)?;
-        problems.note(format!("sheet '{name}' of the workbook"));
-        sheet = Some(name);
-        settings.comments(&grid.comments, problems);
-        let text = xlsx::lines(&grid);
-        (grid, text)
-    } else {
-        let text = grid::decode(bytes, problems)?;
-        // The separator may be said in a comment, which is found with any separator.
-        let mut grid = grid::split(&text, settings.separator, problems)?;
-        settings.comments(&grid.comments, problems);
-        if let Some(separator) = settings.separator.filter(|&c| c != grid.separator) {
-            grid = grid::split(&text, Some(separator), problems)?;
-        }
-        (grid, text)
-    };
+    if xlsx::is_xlsx(bytes) {
+        return sheets::read(workbook::sheets(bytes, problems)?, settings, problems);
+    }
+    let text = grid::decode(bytes, problems)?;
+    // The separator may be said in a comment, which is found with any separator.
+    let mut grid = grid::split(&text, settings.separator, problems)?;
+    settings.comments(&grid.comments, problems);
+    if let Some(separator) = settings.separator.filter(|&c| c != grid.separator) {
+        grid = grid::split(&text, Some(separator), problems)?;
+    }
+    of_grid(grid, &text, None, settings, problems)
+}
+
+/// The table of rows of fields, which are those of a text or of a sheet.
+fn of_grid(
+    mut grid: Grid,
+    text: &str,
+    sheet: Option<String>,
+    settings: &mut Settings,
+    problems: &mut Problems,
+) -> Option<OffsetTable> {
     if problems.any_errors() {
         return None;
     }
@@ -212,7 +219,7 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
             problems.note("columns are stations, cells are pairs of half-breadth and height".to_owned());
             pairs::read(&grid.rows, form, settings, problems)?
         }
-        TableLayout::Matrix | TableLayout::Other => matrix(&grid, &text, form, settings, problems)?,
+        TableLayout::Matrix | TableLayout::Other => matrix(&grid, text, form, settings, problems)?,
     };
     if let Some(name) = &settings.name {
         table.name.clone_from(name);
@@ -237,11 +244,15 @@ fn matrix(
     grid: &Grid,
     text: &str,
     form: TableForm,
-    settings: &Settings,
+    settings: &mut Settings,
     problems: &mut Problems,
 ) -> Option<OffsetTable> {
-    let (mut blocks, titles) = matrix::blocks(&grid.rows, settings, problems);
+    let mut pieces = pieces::pieces(&grid.rows);
+    pieces::without_others(&mut pieces, problems);
+    around::settle(&pieces, settings, problems);
+    let mut blocks = matrix::blocks(&pieces.tables, settings, problems);
     several::expand(&mut blocks, form.decimal_comma, problems);
+    let blocks = joined::join_all(blocks, form.decimal_comma, problems);
     let first = blocks.first()?;
     let across = if first.across == header::Axis::Buttock { "buttock" } else { "waterline" };
     let (rows, columns) = match first.rows {
@@ -262,9 +273,10 @@ fn matrix(
     ));
     let places = first.heads.iter().map(|f| f.row).chain(first.stations.iter().map(|line| line.head.row));
     let header_row = places.chain([first.first.row]).filter(|&row| row > 0).min().unwrap_or(1);
-    let preamble = text.lines().take(header_row - 1).map(str::to_owned).collect();
+    let above = text.lines().take(header_row - 1).map(str::to_owned);
+    let preamble = above.chain(around::unit_lines(&pieces, settings)).collect();
     let mut table = assemble::assemble(blocks, TableForm { preamble, ..form }, settings, problems)?;
-    table.name = titles.first().map(|field| field.trimmed().to_owned()).unwrap_or_default();
+    table.name = around::name(&pieces, header_row).unwrap_or_default();
     Some(table)
 }
 

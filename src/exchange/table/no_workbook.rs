@@ -1,14 +1,14 @@
 //! What stands for workbooks in a library that was built without them.
 
-use super::grid::Grid;
 use super::problem::{FilePosition, Problems};
+use super::xlsx::Sheet;
 use crate::hull::TableForm;
 
 /// What is missing.
 const MISSING: &str = "workbooks need the feature `workbooks` of the library";
 
-/// The rows of a workbook: a problem here.
-pub(super) fn grid(_: &[u8], problems: &mut Problems) -> Option<(Grid, String)> {
+/// The sheets of a workbook: a problem here.
+pub(super) fn sheets(_: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>> {
     problems.error("E300", FilePosition::FILE, MISSING.to_owned(), "Give the table as CSV");
     None
 }

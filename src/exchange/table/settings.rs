@@ -18,6 +18,7 @@
 //! Lpp = 62.0                  # B, T, D likewise
 //! separator = ";"             # , ; | tab blank
 //! decimal = ","               # , .
+//! sheet = "Offsets"           # of a workbook
 //! axes = "x -z y"             # of a body of triangles or surfaces: our x, y, z in terms of the file's
 //! up = "y"                    # of a body: the file's axis that points up, instead of all three
 //! body = "half"               # of a body: one side of it (half), or all (whole)
@@ -77,6 +78,8 @@ pub(super) struct Settings {
     pub(super) waterline_spacing: Option<f64>,
     pub(super) spaces: Option<f64>,
     pub(super) separator: Option<char>,
+    /// Name of the sheet of a workbook.
+    pub(super) sheet: Option<String>,
     pub(super) decimal_comma: Option<bool>,
     /// (z, x) of the stern and of the stem \[m\].
     pub(super) endings: [Vec<[f64; 2]>; 2],
@@ -104,7 +107,7 @@ pub(super) struct BodyFrame {
 }
 
 /// Keys of `[table]`.
-pub(super) const KEYS: [&str; 25] = [
+pub(super) const KEYS: [&str; 26] = [
     "name",
     "units",
     "x_units",
@@ -122,6 +125,7 @@ pub(super) const KEYS: [&str; 25] = [
     "D",
     "separator",
     "decimal",
+    "sheet",
     "comment",
     "axes",
     "up",
@@ -197,6 +201,7 @@ impl Settings {
     pub(super) fn set(&mut self, key: &str, value: &Value) -> Result<(), (String, String)> {
         match key {
             "name" => self.name = Some(text(key, value)?),
+            "sheet" => self.sheet = Some(text(key, value)?),
             "comment" => {}
             "units" => self.units = Some(unit(key, value)?),
             "x_units" => self.x_units = Some(unit(key, value)?),

@@ -1,6 +1,7 @@
-//! The first sheet with fields of an XLSX workbook, as the rows of a CSV file, and the text of a table as a workbook.
+//! The sheets of an XLSX workbook, as the rows of CSV files, and the text of a table as a workbook.
 //!
-//! A row that begins with `#` is a comment, as in CSV. In a workbook that is written, plain decimal numbers are
+//! A row that begins with `#` is a comment, as in CSV. Texts that are numbers with decimal commas are numbers. Formulas
+//! without stored values, dates and errors are refused, each kind in one line. In a workbook that is written, plain decimal numbers are
 //! numbers, shown with their digits, and all else is text; the same table gives the same bytes.
 //!
 //! Cells are taken one by one, so that a sheet that claims a million rows costs nothing. Packed workbooks that say to
@@ -8,14 +9,15 @@
 
 use std::io::{Cursor, Read as _};
 
-use calamine::{DataRef, Reader as _, Xlsx};
+use calamine::{DataRef, Reader as _, SheetVisible, Xlsx};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
 use zip::ZipArchive;
 
 use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
 use super::problem::{Field, FilePosition, Problems};
-use super::xlsx::MOST_UNPACKED;
+use super::xlsx::{MOST_UNPACKED, Sheet};
 use crate::hull::TableForm;
+use crate::units::counted;
 
 /// Sum of the sizes that the directory of the archive states.
 fn unpacked(bytes: &[u8]) -> u64 {
@@ -54,8 +56,8 @@ fn claimed_texts(bytes: &[u8]) -> u64 {
     most
 }
 
-/// The rows of a workbook, and the name of their sheet.
-pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, String)> {
+/// Whether a workbook is small enough; a problem otherwise.
+fn is_small(bytes: &[u8], problems: &mut Problems) -> bool {
     let stated = unpacked(bytes);
     if bytes.len() > LARGEST_TABLE || stated > MOST_UNPACKED {
         let message = format!(
@@ -63,13 +65,21 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
             bytes.len()
         );
         problems.error("E312", FilePosition::FILE, message, "");
-        return None;
+        return false;
     }
     let claimed = claimed_texts(bytes);
     if claimed > MOST_CELLS as u64 {
         let message =
             format!("the workbook says that it has {claimed} shared texts; a table has at most {MOST_CELLS} cells");
         problems.error("E312", FilePosition::FILE, message, "");
+        return false;
+    }
+    true
+}
+
+/// The sheets of a workbook that have cells, each with what is wrong with them.
+pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>> {
+    if !is_small(bytes, problems) {
         return None;
     }
     let failed = |error: String| format!("not a workbook that can be read: {error}");
@@ -80,17 +90,19 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
             return None;
         }
     };
-    let sheets = book.sheet_names();
-    for sheet in sheets {
-        let mut reader = match book.worksheet_cells_reader(&sheet) {
-            Ok(reader) => reader,
-            // A sheet of a chart has no cells.
-            Err(_) => continue,
+    let mut sheets = Vec::new();
+    let mut cells = 0;
+    for metadata in book.sheets_metadata().to_vec() {
+        // A sheet of a chart has no cells.
+        let Ok(mut reader) = book.worksheet_cells_reader(&metadata.name) else { continue };
+        let mut sheet = Sheet {
+            hidden: metadata.visible != SheetVisible::Visible,
+            name: metadata.name,
+            grid: Grid { separator: ',', ..Grid::default() },
+            problems: problems.alike(),
         };
-        let mut grid = Grid { separator: ',', ..Grid::default() };
-        let mut cells = 0usize;
         loop {
-            let cell = match reader.next_cell() {
+            let cell = match reader.next_cell_with_formula() {
                 Ok(Some(cell)) => cell,
                 Ok(None) => break,
                 Err(error) => {
@@ -98,26 +110,12 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
                     return None;
                 }
             };
-            let (row, column) = cell.get_position();
-            let (row, column) = (row as usize, column as usize);
+            let (row, column) = (cell.pos.0 as usize, cell.pos.1 as usize);
             let mut field = Field { text: String::new(), row: row + 1, column: column + 1 };
-            field.text = match cell.get_value() {
-                DataRef::Int(n) => n.to_string(),
-                DataRef::Float(n) if n.is_finite() => n.to_string(),
-                DataRef::Float(_) | DataRef::Empty => continue,
-                DataRef::String(text) => text.clone(),
-                DataRef::SharedString(text) => (*text).to_owned(),
-                DataRef::Bool(truth) => truth.to_string(),
-                DataRef::DateTime(_) | DataRef::DateTimeIso(_) | DataRef::DurationIso(_) => {
-                    let message = "the cell is a date; spreadsheets make dates of feet-inches-eighths".to_owned();
-                    problems.error("E301", &field, message, "Format the cells as text before typing 3-4-5");
-                    continue;
-                }
-                DataRef::Error(error) => {
-                    problems.error("E301", &field, format!("the cell holds the error {error}"), "");
-                    continue;
-                }
-            };
+            match text(&cell.value, cell.formula.is_some(), &field, &mut sheet.problems) {
+                Some(text) => field.text = text,
+                None => continue,
+            }
             cells += 1;
             if row >= MOST_ROWS || column >= MOST_COLUMNS || cells > MOST_CELLS || field.text.len() > LONGEST_FIELD {
                 let message = format!(
@@ -127,18 +125,101 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
                 problems.error("E312", &field, message, "");
                 return None;
             }
-            place(&mut grid, field, &mut cells, problems)?;
+            place(&mut sheet.grid, field, &mut cells, problems)?;
         }
-        if !grid.rows.iter().all(Vec::is_empty) {
-            comments(&mut grid);
-            even(&mut grid);
-            return Some((grid, sheet));
+        let is_filled = sheet.grid.rows.iter().flatten().any(|field| !field.is_blank());
+        if is_filled || sheet.problems.any_errors() {
+            comments(&mut sheet.grid);
+            points(&mut sheet.grid, &mut sheet.problems);
+            even(&mut sheet.grid);
+            sheets.push(sheet);
         }
     }
-    if !problems.any_errors() {
+    if sheets.is_empty() {
         problems.error("E300", FilePosition::FILE, "no sheet of the workbook has cells".to_owned(), "");
+        return None;
     }
+    Some(sheets)
+}
+
+/// The text of a cell; none for an empty one, and for one that holds no text or number.
+fn text(value: &DataRef<'_>, formula: bool, field: &Field, problems: &mut Problems) -> Option<String> {
+    match value {
+        DataRef::Int(n) => Some(n.to_string()),
+        DataRef::Float(n) if n.is_finite() => Some(n.to_string()),
+        DataRef::String(text) if formula && text.is_empty() => unstored(field, problems),
+        DataRef::String(text) => Some(text.clone()),
+        DataRef::SharedString(text) => Some((*text).to_owned()),
+        DataRef::Bool(truth) => Some(truth.to_string()),
+        DataRef::Float(_) | DataRef::Empty if formula => unstored(field, problems),
+        DataRef::Float(_) | DataRef::Empty => None,
+        DataRef::DateTime(date) => {
+            let (year, month, day, ..) = date.to_ymd_hms_milli();
+            refuse_date(field, &format!("{year}-{month:02}-{day:02}"), problems)
+        }
+        DataRef::DateTimeIso(date) => refuse_date(field, date, problems),
+        DataRef::DurationIso(duration) => refuse_date(field, duration, problems),
+        DataRef::Error(error) => {
+            problems.error("E301", field, format!("the cell holds the error {error}"), "");
+            None
+        }
+    }
+}
+
+fn unstored(field: &Field, problems: &mut Problems) -> Option<String> {
+    let message = "the cell has a formula without a stored value".to_owned();
+    let remedy = "Open the workbook in a spreadsheet and save it, or give values";
+    problems.error("E301", field, message, remedy);
     None
+}
+
+/// What `2005-03-04` may have been: 3-4-5, or 4-3-5 where days come first.
+fn refuse_date(field: &Field, date: &str, problems: &mut Problems) -> Option<String> {
+    let parts: Vec<u32> = date.split(['-', 'T', ' ']).take(3).filter_map(|part| part.parse().ok()).collect();
+    let typed = match parts[..] {
+        [year, month, day] => {
+            let eighths = year % 100;
+            format!(": {date} may be {month}-{day}-{eighths} or {day}-{month}-{eighths}")
+        }
+        _ => String::new(),
+    };
+    let message = format!("the cell is a date; spreadsheets make dates of feet-inches-eighths{typed}");
+    problems.error("E301", field, message, "Format the cells as text before typing 3-4-5");
+    None
+}
+
+/// A text that is a number with a decimal comma, with a point.
+fn pointed(text: &str) -> Option<String> {
+    let (whole, part) = text.trim().strip_prefix('-').unwrap_or(text.trim()).split_once(',')?;
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    (digits(whole) && digits(part)).then(|| text.trim().replace(',', "."))
+}
+
+/// Texts with decimal commas become numbers, where no text has a decimal point.
+fn points(grid: &mut Grid, problems: &mut Problems) {
+    let found: Vec<String> = grid.rows.iter().flatten().filter_map(|field| pointed(&field.text)).collect();
+    if found.is_empty() {
+        return;
+    }
+    let three =
+        |text: &String| text.split_once('.').is_some_and(|(whole, part)| part.len() == 3 && !whole.ends_with('0'));
+    let message = format!("{} with decimal commas in texts are numbers", counted(found.len(), "cell"));
+    if found.iter().all(three) {
+        let remedy = "Write 1234 for a comma between thousands";
+        problems.warning(
+            "W320",
+            FilePosition::FILE,
+            format!("{message}: none has its comma between thousands"),
+            remedy,
+        );
+    } else {
+        problems.note(message);
+    }
+    for field in grid.rows.iter_mut().flatten() {
+        if let Some(text) = pointed(&field.text) {
+            field.text = text;
+        }
+    }
 }
 
 /// Takes the rows that begin with `#` out, as comments.

@@ -4,6 +4,7 @@
 //! Rounding to the quantum of the notation is the last step, and what it does is returned. A table in pairs
 //! becomes a matrix; sections of points keep the format of their program, or become a tidy table.
 
+use super::around::says_full;
 use super::header::{side_name, unit_of};
 use super::tidy;
 use crate::hull::{
@@ -67,7 +68,7 @@ fn stays(line: &str, separator: char) -> bool {
             !known || ["name", "Lpp", "B", "T", "D"].iter().any(|k| k.eq_ignore_ascii_case(key))
         }
         Some(None) => true,
-        None => !line.trim_end_matches(separator).contains(separator),
+        None => !line.trim_end_matches(separator).contains(separator) && !says_full(line),
     }
 }
 

@@ -1,6 +1,17 @@
-//! What an XLSX workbook has in common with a CSV file: the rows of its first sheet with fields.
+//! What an XLSX workbook has in common with a CSV file: the rows of its sheets.
 
 use super::grid::Grid;
+use super::problem::Problems;
+
+/// A sheet with cells.
+#[derive(Debug)]
+pub(super) struct Sheet {
+    pub(super) name: String,
+    pub(super) hidden: bool,
+    pub(super) grid: Grid,
+    /// What is wrong with its cells.
+    pub(super) problems: Problems,
+}
 
 /// The most bytes of all parts of a workbook.
 pub const MOST_UNPACKED: u64 = 256 << 20;

@@ -1,0 +1,109 @@
+//! What stands around a table of offsets says about it: its name, main dimensions, units, and full breadths.
+
+use super::header::{Corner, axis_of, unit_of};
+use super::pieces::{Piece, Pieces};
+use super::problem::{FilePosition, Problems};
+use super::ratio::slot;
+use super::settings::Settings;
+use crate::units::{Notation, parse_length};
+
+/// Takes over what the words around the tables say and the conventions do not.
+pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Problems) {
+    dimensions(pieces, settings, problems);
+    let texts = || pieces.texts.iter().chain(pieces.tables.iter().flat_map(|piece| &piece.texts));
+    if let Some(piece) = pieces.tables.first() {
+        units_below(piece, settings, problems);
+        let corner = piece.rows.first().and_then(|row| Corner::of(row.first()?.trimmed()).unit);
+        if settings.units.or(corner).is_none()
+            && let Some((text, unit)) = texts().find_map(|text| Some((text, unit_of_text(text.trimmed())?)))
+        {
+            problems.note(format!("'{}' states the unit {}", text.trimmed(), unit.as_str()));
+            settings.units = Some(unit);
+        }
+    }
+    if let Some(text) = texts().find(|text| says_full(&text.text)).filter(|_| settings.full.is_none()) {
+        let message = format!("full breadths, by '{}'", text.trimmed());
+        problems.warning("W320", text.place(), message, "Give breadths = \"half\" in the conventions if they are not");
+        settings.full = Some(true);
+    }
+}
+
+/// Whether words say that breadths are full.
+pub(super) fn says_full(text: &str) -> bool {
+    let lower = text.to_lowercase().replace('-', " ");
+    lower.contains("full breadth") || lower.contains("full beam")
+}
+
+/// Comments that say what the row of units did, which is not written back.
+pub(super) fn unit_lines(pieces: &Pieces, settings: &Settings) -> Vec<String> {
+    let Some(piece) = pieces.tables.first().filter(|piece| !piece.units.is_empty()) else { return Vec::new() };
+    let first = piece.units.first().copied().flatten();
+    let all = [("units", settings.units), ("x_units", settings.x_units.or(first))];
+    all.into_iter().filter_map(|(key, unit)| Some(format!("# {key} = {}", unit?.as_str()))).collect()
+}
+
+/// The unit that a title or a note states: in brackets, or after `in`.
+fn unit_of_text(text: &str) -> Option<Notation> {
+    let words: Vec<&str> = text.split_whitespace().map(|word| word.trim_matches(['.', ',', ';'])).collect();
+    let after_in =
+        words.windows(2).find_map(|pair| pair[0].eq_ignore_ascii_case("in").then(|| Notation::from_word(pair[1])));
+    match after_in {
+        Some(unit) => unit,
+        None => unit_of(text).filter(|_| text.contains(['[', '('])),
+    }
+}
+
+/// Main dimensions in two columns beside or above a table.
+fn dimensions(pieces: &Pieces, settings: &mut Settings, problems: &mut Problems) {
+    for (key, value) in &pieces.pairs {
+        let bare = key.text.split(['[', '(', '=', ':']).next().unwrap_or_default();
+        let Some(slot) = slot(&mut settings.stated, bare) else { continue };
+        let unit = unit_of(key.trimmed()).unwrap_or(Notation::Metres);
+        let length = match value.trimmed().replace(',', ".").parse::<f64>() {
+            Ok(number) => Ok(unit.metres(number)),
+            Err(_) => parse_length(value.trimmed()),
+        };
+        match length {
+            Ok(length) if length.is_finite() && length > 0.0 && length < 1e5 => {
+                if slot.is_none() {
+                    *slot = Some(length);
+                    problems.note(format!("{} is {length} m by row {}", bare.trim(), key.row));
+                }
+            }
+            Ok(length) => {
+                let message = format!("{} would be {length} m", bare.trim());
+                problems.error("E311", value, message, "It must be larger than 0 and smaller than 100000");
+            }
+            Err(error) => problems.error("E311", value, format!("{}: {error}", bare.trim()), ""),
+        }
+    }
+}
+
+/// Units in a row below the header.
+fn units_below(piece: &Piece, settings: &mut Settings, problems: &mut Problems) {
+    let Some((first, others)) = piece.units.split_first() else { return };
+    let mut given = others.iter().flatten().copied();
+    let Some(offsets) = given.next().or(*first) else { return };
+    let corner = piece.rows.first().and_then(|row| row.first());
+    let by_corner = corner.and_then(|field| Corner::of(field.trimmed()).unit);
+    if let Some(other) = given.find(|unit| *unit != offsets) {
+        let message = format!("offsets in {} and in {} in one table", offsets.as_str(), other.as_str());
+        problems.error("E305", FilePosition::FILE, message, "Give all offsets in one unit");
+    }
+    if let (Some(corner), Some(below)) = (by_corner, first)
+        && corner != *below
+    {
+        let message = format!("the header states {}, and the row below it {}", corner.as_str(), below.as_str());
+        problems.error("E305", FilePosition::FILE, message, "Correct one of them");
+    }
+    settings.x_units = settings.x_units.or(settings.units).or(by_corner).or(*first);
+    settings.units = settings.units.or(Some(offsets));
+}
+
+/// The title of the tables: the first text above their header, but for words over its columns.
+pub(super) fn name(pieces: &Pieces, header_row: usize) -> Option<String> {
+    let texts = pieces.texts.iter().chain(pieces.tables.iter().flat_map(|piece| &piece.texts));
+    let over_columns = |text: &str| axis_of(text).is_some() || text.to_lowercase().contains("breadth");
+    let titles = texts.filter(|text| text.row < header_row && !over_columns(text.trimmed()));
+    titles.min_by_key(|text| (text.row, text.column)).map(|text| text.trimmed().to_owned())
+}
