@@ -330,3 +330,35 @@ fn columns_of_fixed_width_may_be_empty() {
     assert_eq!(cells(&table, 0), [None, Some(0.5), Some(1.5)]);
     assert_eq!(cells(&table, 2), [None, None, Some(1.0)]);
 }
+
+#[test]
+fn lines_of_a_boat_are_sections_with_knuckles() {
+    let read = read_table("skiff.csv", read_text(case("skiff.csv")).as_bytes()).unwrap();
+    let table = &read.table;
+    assert_eq!(table.stations.len(), 6);
+    let section = &table.stations[2].outlines[0];
+    let foot = 0.3048;
+    let expected = [(0.0625, 1.0 / 12.0, false), (22.0 / 12.0, 4.0 / 12.0, true), (25.5 / 12.0, 20.0 / 12.0, false)];
+    for (point, (y, z, knuckle)) in section.iter().zip(expected) {
+        assert!((point.y - y * foot).abs() < 1e-12 && (point.z - z * foot).abs() < 1e-12, "{point:?}");
+        assert_eq!(point.marks.knuckle, knuckle);
+    }
+    let length = table.stations[5].station.x - table.stations[0].station.x;
+    assert!((length - 14.0 * foot).abs() < 1e-12);
+    // Straight panels: the section at 6 ft below 0.8 ft.
+    let body = read_hydrostatic_body(&case("skiff.csv")).unwrap();
+    let hull = body.hull().expect("a fitted hull");
+    let area = SectionalAreaCurve::new(hull, 0.8 * foot, &[6.0 * foot]).areas[0];
+    assert!((area - 0.2074).abs() < 1e-4, "{area}");
+    // From the stem: turned about.
+    let turned = "name,stem,1,transom\nstation,0-0-0,3-0-0,6-0-0\nheights,,,\nsheer,2-0-0,1-8-0,1-9-0\nchine,1-0-0,0-4-0,0-5-0\n\
+                  keel,0-8-0,0-1-0,0-2-0\nhalf-breadths,,,\nsheer,0-0-6,2-0-0,1-8-0\nchine,0-0-6,1-8-0,1-4-0\nkeel,0-0-6,0-0-6,0-0-6\n";
+    let table = read_table("t.csv", turned.as_bytes()).unwrap().table;
+    assert_eq!(table.stations[0].station.name, "transom");
+    assert!(table.stations[0].station.x.abs() < 1e-12);
+    let worded = turned.replace("station,", "distance from stem,").replace("stem,1,transom", "0,1,2");
+    let table = read_table("t.csv", worded.as_bytes()).unwrap().table;
+    assert_eq!(table.stations[0].station.name, "2");
+    let unnamed = turned.replace("stem", "0").replace("transom", "2");
+    among(&warnings(&unnamed, ""), &["W320", "no name says which end is the stem"]);
+}

@@ -99,7 +99,7 @@ impl<'a> TableReader<'a> {
     }
 
     /// A position across the stations \[m\].
-    fn across(&self, position: Position) -> f64 {
+    pub(super) fn across(&self, position: Position) -> f64 {
         match position.place {
             Coordinate::Number(number) => self.units.z.metres(match self.settings.waterline_spacing {
                 Some(spacing) if position.named => return number * spacing,

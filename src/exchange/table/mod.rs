@@ -9,6 +9,7 @@
 mod around;
 mod assemble;
 mod blanks;
+mod boat;
 mod body;
 mod britfair;
 mod checks;
@@ -188,6 +189,8 @@ fn of_grid(
     let layout = settings.layout.unwrap_or_else(|| {
         if tidy::is_tidy(&grid.rows) || long::is_long(&grid.rows) {
             TableLayout::Tidy
+        } else if boat::is_boat(&grid.rows) {
+            TableLayout::Other
         } else if pairs::is_pairs(&grid.rows, grid.separator) {
             TableLayout::Pairs
         } else {
@@ -207,6 +210,10 @@ fn of_grid(
         ..TableForm::default()
     };
     let mut table = match layout {
+        TableLayout::Other => {
+            problems.note("rows of heights and half-breadths of lines, columns are stations".to_owned());
+            boat::read(&grid.rows, form, settings, problems)?
+        }
         TableLayout::Tidy if long::is_long(&grid.rows) => {
             problems.note("one point a row".to_owned());
             long::read(&grid.rows, form, settings, problems)?
@@ -219,7 +226,7 @@ fn of_grid(
             problems.note("columns are stations, cells are pairs of half-breadth and height".to_owned());
             pairs::read(&grid.rows, form, settings, problems)?
         }
-        TableLayout::Matrix | TableLayout::Other => matrix(&grid, text, form, settings, problems)?,
+        TableLayout::Matrix => matrix(&grid, text, form, settings, problems)?,
     };
     if let Some(name) = &settings.name {
         table.name.clone_from(name);

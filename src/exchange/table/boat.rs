@@ -1,0 +1,375 @@
+//! Tables of lines, as plans of boats have them: a column a station, and rows of heights and of half-breadths of the sheer,
+//! the chines, the keel, the rabbet.
+//!
+//! ```text
+//! , , transom, 1, 2, stem
+//! , station, 0-0-0, 3-0-0, 6-0-0, 9-0-0
+//! heights, sheer, 1-10-0, 1-8-4, 1-8-0, 2-3-0
+//! , chine, 0-6-0, 0-4-4, 0-4-0, 1-2-0
+//! half-breadths, sheer, 1-6-0, ...
+//! ```
+//!
+//! The group may stand in a column of its own, in a row of its own, or in the name (`height of sheer`). Rows of half-breadths
+//! at waterlines and of heights at buttocks belong to the sections as well. Chines and knuckles are knuckles; without
+//! waterlines and buttocks all lines between the lowest and the highest are, with straight panels between them.
+
+use super::assemble::{TableReader, order};
+use super::header::{Axis, Corner, Position, axis_of, position};
+use super::problem::{Field, FilePosition, Problems};
+use super::scale::{Size, ends_from_midship, origin, units};
+use super::settings::Settings;
+use crate::hull::{Kept, Marks, OffsetTable, Order, OutlinePoint, StationOffsets, TableForm, TableLayout};
+
+/// Fewer lines with heights and half-breadths are the side rows of a matrix.
+const LEAST_LINES: usize = 2;
+/// Points of a section nearer than this are one \[m\].
+const SAME_POINT: f64 = 1e-6;
+
+/// What the numbers of a row are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Group {
+    Positions,
+    Heights,
+    HalfBreadths,
+    Diagonals,
+}
+
+/// A row of the table.
+struct Row<'g> {
+    group: Option<Group>,
+    /// The line, without what the group says.
+    name: String,
+    label: &'g Field,
+    cells: &'g [Field],
+}
+
+/// The header and the rows of a table of lines.
+struct Lines<'g> {
+    heads: &'g [Field],
+    rows: Vec<Row<'g>>,
+}
+
+fn words(text: &str) -> Vec<String> {
+    let lower = text.to_lowercase().replace(['\u{2010}', '\u{2011}'], "-");
+    lower
+        .split(|c: char| !c.is_alphanumeric() && !matches!(c, '\'' | '"' | '.'))
+        .filter(|w| !w.is_empty())
+        .map(str::to_owned)
+        .collect()
+}
+
+/// The group that a label names, and the words that name something else.
+fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
+    let mut group = None;
+    let mut rest = Vec::new();
+    for word in words(text) {
+        match word.as_str() {
+            "height" | "heights" => group = group.or(Some(Group::Heights)),
+            "half" | "breadth" | "breadths" | "halfbreadth" | "halfbreadths" | "width" | "widths" | "halfwidth"
+            | "halfwidths" => group = Some(Group::HalfBreadths),
+            "diagonal" | "diagonals" | "diag" => group = Some(Group::Diagonals),
+            "length" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
+                group = group.or(Some(Group::Positions));
+            }
+            "of" | "above" | "base" | "baseline" | "line" | "at" | "from" | "centreline" | "centerline" | "c.l."
+            | "cl" => {}
+            _ => rest.push(word),
+        }
+    }
+    (group, rest)
+}
+
+fn is_numeric(field: &Field) -> bool {
+    field.trimmed().trim_start_matches(['(', '-', '.']).starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// The rows with their groups; none where the table has no labels and cells.
+fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
+    let mut filled = rows.iter().filter(|row| row.iter().filter(|field| !field.is_blank()).count() > 1);
+    let head = filled.next()?;
+    let body: Vec<&Vec<Field>> = rows.iter().filter(|row| !row.is_empty() && row[0].row > head[0].row).collect();
+    let width = head.len();
+    let labels = (0..width.min(3))
+        .take_while(|&j| body.iter().all(|row| row.get(j).is_none_or(|field| !is_numeric(field))))
+        .count();
+    if labels == 0 || labels + 2 > width {
+        return None;
+    }
+    let mut list = Vec::new();
+    let mut group = None;
+    for row in body {
+        let cells = row.get(labels..).unwrap_or_default();
+        let mut named = row.iter().take(labels).filter(|field| !field.is_blank());
+        let mut name = Vec::new();
+        let mut own = None;
+        for field in named.clone() {
+            let (group, rest) = group_of(&field.text);
+            own = own.or(group);
+            name.extend(rest);
+        }
+        let Some(label) = named.next_back() else { continue };
+        if own.is_some() && own != Some(Group::Positions) {
+            group = own;
+        }
+        if cells.iter().all(Field::is_blank) {
+            continue;
+        }
+        list.push(Row { group: own.or(group), name: name.join(" "), label, cells });
+    }
+    Some(Lines { heads: &head[labels..], rows: list })
+}
+
+impl Lines<'_> {
+    /// Whether a line has rows of a group.
+    fn has(&self, name: &str, group: Group) -> bool {
+        self.rows.iter().any(|row| row.group == Some(group) && row.name == name)
+    }
+
+    /// The names of lines, which are no positions of waterlines or buttocks.
+    fn names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for row in self.rows.iter().filter(|row| matches!(row.group, Some(Group::Heights | Group::HalfBreadths))) {
+            if !row.name.is_empty() && !names.contains(&row.name.as_str()) && across(row).is_none() {
+                names.push(&row.name);
+            }
+        }
+        names
+    }
+}
+
+/// Where a row of a waterline or a buttock lies.
+fn across(row: &Row<'_>) -> Option<Position> {
+    let known = matches!(axis_of(row.label.trimmed()), Some(Axis::Waterline | Axis::Buttock)) || is_numeric(row.label);
+    position(row.label.trimmed(), false).ok().filter(|_| known)
+}
+
+/// Whether rows are lines with heights and half-breadths.
+pub(super) fn is_boat(rows: &[Vec<Field>]) -> bool {
+    lines(rows).is_some_and(|lines| {
+        let both = |name: &&&str| lines.has(name, Group::Heights) && lines.has(name, Group::HalfBreadths);
+        lines.names().iter().filter(both).count() >= LEAST_LINES
+    })
+}
+
+/// Which end the name of a station is: -1 aft, 1 forward.
+fn end_of(name: &str) -> i32 {
+    match words(name).first().map(String::as_str) {
+        Some("stem" | "bow" | "fp" | "f.p." | "forward") => 1,
+        Some("transom" | "stern" | "sternpost" | "ap" | "a.p." | "aft") => -1,
+        _ => 0,
+    }
+}
+
+/// A point of a section with the name of its line; empty for waterlines and buttocks.
+struct LinePoint {
+    station: usize,
+    name: String,
+    y: f64,
+    z: f64,
+}
+
+/// The table of a file of lines.
+pub(super) fn read(
+    rows: &[Vec<Field>],
+    form: TableForm,
+    settings: &Settings,
+    problems: &mut Problems,
+) -> Option<OffsetTable> {
+    let lines = lines(rows)?;
+    let positions_row = lines.rows.iter().find(|row| row.group == Some(Group::Positions));
+    let fields: &[Field] = positions_row.map_or(lines.heads, |row| row.cells);
+    let heads = positions(lines.heads, fields, form.decimal_comma, problems)?;
+    let of = |group: Group| lines.rows.iter().filter(move |row| row.group == Some(group)).flat_map(|row| row.cells);
+    let (y, z) =
+        (Size::of(of(Group::HalfBreadths), form.decimal_comma), Size::of(of(Group::Heights), form.decimal_comma));
+    let places: Vec<Position> = heads.iter().map(|(_, position)| *position).collect();
+    let corner =
+        Corner { rows: Some(if positions_row.is_some() { Axis::X } else { Axis::Station }), ..Corner::default() };
+    let (datum, numbers) = origin(settings, corner, &places, y.largest, problems);
+    let units = units(settings, corner, [Size::of_positions(places.iter()), y, z], numbers, problems);
+    let datum = ends_from_midship(datum, settings, &places, units.x, problems);
+    let form = TableForm { origin: datum, layout: TableLayout::Other, ..form };
+    let mut reader = TableReader::new(settings, form, units, problems);
+    let xs: Vec<f64> = places.iter().map(|place| reader.along(*place)).collect();
+    let fields: Vec<Field> = heads.iter().map(|(at, _)| fields[*at].clone()).collect();
+    let points = points(&lines, &heads, &mut reader);
+    let direction = order(&xs, &fields, "station", reader.problems)?;
+    let has_cuts = points.iter().any(|point| point.name.is_empty());
+    let mut table = OffsetTable::default();
+    for (k, ((at, _), x)) in heads.iter().zip(&xs).enumerate() {
+        let name = lines.heads[*at].trimmed();
+        let outline = outline(points.iter().filter(|point| point.station == k), has_cuts);
+        if outline.len() < 2 {
+            let message = format!("station '{name}' is left out: it has not two points");
+            reader.problems.warning("W332", lines.heads[*at].place(), message, "");
+            continue;
+        }
+        table.stations.push(StationOffsets { outlines: vec![outline], ..StationOffsets::new(name, *x) });
+    }
+    if direction == Order::Falling {
+        table.stations.reverse();
+    }
+    let from = positions_row.map(|row| end_of(&row.name));
+    turn(&mut table, settings, from, reader.problems);
+    reader.form.station_order = direction;
+    reader.form.station_heads =
+        table.stations.iter().map(|s| Kept { text: s.station.name.clone(), value: s.station.x }).collect();
+    table.form = reader.finish();
+    Some(table)
+}
+
+/// The stations that have a position, with the column of each.
+fn positions(
+    names: &[Field],
+    fields: &[Field],
+    comma: bool,
+    problems: &mut Problems,
+) -> Option<Vec<(usize, Position)>> {
+    let mut list = Vec::new();
+    for (at, (name, field)) in names.iter().zip(fields).enumerate() {
+        if name.is_blank() && field.is_blank() {
+            continue;
+        }
+        match position(field.trimmed(), comma) {
+            Ok(position) => list.push((at, position)),
+            Err(error) => {
+                let message = format!("no position of station '{}': {error}", name.trimmed());
+                problems.error("E310", field, message, "Give a row 'station' with the distances of all stations");
+            }
+        }
+    }
+    (list.len() > 1 && !problems.any_errors()).then_some(list)
+}
+
+/// The points of all lines at all stations.
+fn points(lines: &Lines<'_>, heads: &[(usize, Position)], reader: &mut TableReader<'_>) -> Vec<LinePoint> {
+    let mut points = Vec::new();
+    for name in lines.names() {
+        let row = |group| lines.rows.iter().find(|row| row.group == Some(group) && row.name == name);
+        let (heights, breadths) = (row(Group::Heights), row(Group::HalfBreadths));
+        let on_centreplane = breadths.is_none() && ["keel", "rabbet"].iter().any(|word| name.contains(word));
+        let Some(heights) = heights.filter(|_| breadths.is_some() || on_centreplane) else {
+            let place = row(Group::Heights).or(breadths).map_or(FilePosition::FILE, |row| row.label.place());
+            let message = format!("left out: '{name}' has not both heights and half-breadths");
+            reader.problems.warning("W332", place, message, "");
+            continue;
+        };
+        if on_centreplane {
+            let message = format!("'{name}' has no half-breadths: it is taken on the centreplane");
+            reader.problems.warning(
+                "W320",
+                heights.label.place(),
+                message,
+                "Give a row of its half-breadths (half siding)",
+            );
+        }
+        for (station, (at, _)) in heads.iter().enumerate() {
+            let z = heights.cells.get(*at).and_then(|field| reader.length(field, reader.units.z));
+            let y = match breadths {
+                Some(row) => row.cells.get(*at).and_then(|field| reader.cell(field, true).value()),
+                None => Some(0.0),
+            };
+            if let (Some(y), Some(z)) = (y, z) {
+                points.push(LinePoint { station, name: name.to_owned(), y, z });
+            }
+        }
+    }
+    for row in &lines.rows {
+        let half = match row.group {
+            Some(Group::HalfBreadths) => true,
+            Some(Group::Heights) => false,
+            Some(Group::Positions) => continue,
+            Some(Group::Diagonals) | None => {
+                let message = format!("left out: the row '{}'", row.label.trimmed());
+                reader.problems.warning("W332", row.label.place(), message, "");
+                continue;
+            }
+        };
+        let Some(place) = across(row) else { continue };
+        let place = reader.across(place);
+        for (station, (at, _)) in heads.iter().enumerate() {
+            let Some(field) = row.cells.get(*at) else { continue };
+            if let Some(value) = reader.cell(field, half).value() {
+                let (y, z) = if half { (value, place) } else { (place, value) };
+                points.push(LinePoint { station, name: String::new(), y, z });
+            }
+        }
+    }
+    points
+}
+
+/// A section from the keel to the sheer.
+fn outline<'p>(points: impl Iterator<Item = &'p LinePoint>, has_cuts: bool) -> Vec<OutlinePoint> {
+    let mut sorted: Vec<&LinePoint> = points.collect();
+    sorted.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.y.total_cmp(&b.y)));
+    sorted.dedup_by(|a, b| (a.z - b.z).abs() < SAME_POINT && (a.y - b.y).abs() < SAME_POINT);
+    let last = sorted.len().saturating_sub(1);
+    let is_knuckle = |(k, point): (usize, &&LinePoint)| {
+        let named = ["chine", "knuckle", "rabbet"].iter().any(|word| point.name.contains(word));
+        let knuckle = k > 0 && k < last && (named || !has_cuts);
+        OutlinePoint { y: point.y, z: point.z, marks: Marks { knuckle, ..Marks::default() } }
+    };
+    sorted.iter().enumerate().map(is_knuckle).collect()
+}
+
+/// Turns a hull about whose stations count from its stem, by the words before their distances (`from`) or by their names;
+/// says so where neither tells. Numbers of stations have their own warning.
+fn turn(table: &mut OffsetTable, settings: &Settings, from: Option<i32>, problems: &mut Problems) {
+    if settings.stations.is_some() {
+        return;
+    }
+    let end = |station: Option<&StationOffsets>| station.map_or(0, |station| end_of(&station.station.name));
+    let (aft, fore) = match from {
+        Some(1) => (1, -1),
+        Some(-1) => (-1, 1),
+        _ => (end(table.stations.first()), end(table.stations.last())),
+    };
+    if aft == 1 || fore == -1 {
+        let length = table.stations.last().map_or(0.0, |station| station.station.x);
+        table.stations.iter_mut().for_each(|station| station.station.x = length - station.station.x);
+        table.stations.reverse();
+        problems.note("stations count from the stem; the aftmost one is at x = 0".to_owned());
+    } else if aft == 0 && fore == 0 && from.is_some() {
+        let message = "no name says which end is the stem: x counts from aft. From the stem the hull is turned about, and LCB changes its sign";
+        let remedy = "Name a station 'transom' or 'stem', or give stations = \"from FP\" in the conventions";
+        problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(text: &str) -> Vec<Vec<Field>> {
+        let field = |row: usize, (k, text): (usize, &str)| Field { text: text.to_owned(), row, column: k + 1 };
+        text.lines()
+            .enumerate()
+            .map(|(row, line)| line.split(',').enumerate().map(|part| field(row + 1, part)).collect())
+            .collect()
+    }
+
+    #[test]
+    fn groups_in_a_column_in_a_row_and_in_the_name() {
+        for text in [
+            ",,a,b\nheights,sheer,1,2\n,keel,0,0\nwidths,sheer,1,2\n,keel,0,0",
+            "line,a,b\nHeights above base,,\nsheer,1,2\nkeel,0,0\nHalf-breadths,,\nsheer,1,2\nkeel,0,0",
+            "line,a,b\nSheer height,1,2\nKeel height,0,0\nHalf-breadth of sheer,1,2\nHalf-breadth of keel,0,0",
+        ] {
+            assert!(is_boat(&rows(text)), "{text}");
+        }
+        for text in [
+            "z\\x,0,10\n0,1,2\n1,1,2\nkeel height,0,0\ndeck height,1,2\ndeck half breadth,1,2",
+            "x,0.5,1\n0,1,2\n10,1,2",
+        ] {
+            assert!(!is_boat(&rows(text)), "{text}");
+        }
+    }
+
+    #[test]
+    fn sections_go_from_the_keel_to_the_sheer() {
+        let point = |name: &str, y, z| LinePoint { station: 0, name: name.to_owned(), y, z };
+        let all = [point("sheer", 2.0, 3.0), point("chine", 1.5, 1.0), point("keel", 0.0, 0.5)];
+        let found: Vec<(f64, bool)> = outline(all.iter(), false).iter().map(|p| (p.y, p.marks.knuckle)).collect();
+        assert_eq!(found, [(0.0, false), (1.5, true), (2.0, false)]);
+    }
+}
