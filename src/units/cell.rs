@@ -20,7 +20,7 @@
 //! ever a value. Cost: one pass over the text, no allocation for plain numbers.
 
 use super::notation::Notation;
-use super::quantity::{Dimension, UnitError, keyed, parse};
+use super::quantity::{Dimension, UnitError, before_half, keyed, parse};
 
 /// The longest cell that is looked at \[bytes\].
 pub const LONGEST_CELL: usize = 80;
@@ -191,7 +191,7 @@ fn eighths(text: &str, separator: char) -> Option<Result<f64, CellError>> {
     let body = text.strip_prefix('-').unwrap_or(text);
     let body = body.strip_suffix(['+', '-']).unwrap_or(body);
     let mut parts = 0;
-    let half = body.strip_suffix("1/2").and_then(|rest| rest.strip_suffix([' ', '-']));
+    let half = before_half(body);
     for part in half.unwrap_or(body).split(separator).map(str::trim) {
         if part.is_empty() || !part.bytes().all(|b| b.is_ascii_digit()) {
             return None;

@@ -191,6 +191,11 @@ fn number(text: &str) -> Result<f64, UnitError> {
     if value.is_finite() { Ok(value) } else { Err(UnitError::TooLarge(quoted(text))) }
 }
 
+/// What stands before a half: `3-4-5` of `3-4-5 1/2`.
+pub(super) fn before_half(text: &str) -> Option<&str> {
+    text.strip_suffix("1/2")?.strip_suffix([' ', '-'])
+}
+
 /// `3-4-5`, `3-4-5+`, `-3-4-5-`: feet, inches, eighths, and a sixteenth more or less \[m\]; none when it does not look
 /// so.
 fn eighths(text: &str) -> Option<Result<f64, UnitError>> {
@@ -198,7 +203,7 @@ fn eighths(text: &str) -> Option<Result<f64, UnitError>> {
         Some(rest) => (-1.0, rest),
         None => (1.0, text),
     };
-    let half = body.strip_suffix("1/2").and_then(|rest| rest.strip_suffix([' ', '-']));
+    let half = before_half(body);
     let (body, tick) = match (body.strip_suffix('+'), body.strip_suffix('-'), half) {
         (Some(rest), _, _) | (_, _, Some(rest)) => (rest, 0.5),
         (_, Some(rest), _) => (rest, -0.5),

@@ -1,6 +1,6 @@
 //! What stands around a table of offsets says about it: its name, main dimensions, units, and full breadths.
 
-use super::header::{Corner, axis_of, unit_of};
+use super::header::{Corner, axis_of, plain_number, unit_of};
 use super::pieces::{Piece, Pieces};
 use super::problem::{FilePosition, Problems};
 use super::ratio::slot;
@@ -59,9 +59,9 @@ fn dimensions(pieces: &Pieces, settings: &mut Settings, problems: &mut Problems)
         let bare = key.text.split(['[', '(', '=', ':']).next().unwrap_or_default();
         let Some(slot) = slot(&mut settings.stated, bare) else { continue };
         let unit = unit_of(key.trimmed()).unwrap_or(Notation::Metres);
-        let length = match value.trimmed().replace(',', ".").parse::<f64>() {
-            Ok(number) => Ok(unit.metres(number)),
-            Err(_) => parse_length(value.trimmed()),
+        let length = match plain_number(&value.text) {
+            Some(number) => Ok(unit.metres(number)),
+            None => parse_length(value.trimmed()),
         };
         match length {
             Ok(length) if length.is_finite() && length > 0.0 && length < 1e5 => {

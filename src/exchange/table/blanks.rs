@@ -5,6 +5,7 @@
 //! to the columns below which they stand, if the columns of the full rows are apart.
 
 use super::grid::MOST_COLUMNS;
+use super::header::{begins_as_number, plain_number};
 use super::problem::{Field, FilePosition, Problems};
 
 /// A field with the characters where it starts and ends.
@@ -47,13 +48,12 @@ fn fields_of(line: &str) -> Vec<Token<'_>> {
 }
 
 fn is_number(text: &str) -> bool {
-    text.replace(',', ".").parse::<f64>().is_ok()
+    plain_number(text).is_some()
 }
 
 /// Whether half of the fields begin as numbers do.
 fn is_data(row: &[Token<'_>]) -> bool {
-    let begins = |text: &str| text.trim_start_matches(['-', '+', '.', '(']).starts_with(|c: char| c.is_ascii_digit());
-    2 * row.iter().filter(|token| begins(token.0)).count() >= row.len()
+    2 * row.iter().filter(|token| begins_as_number(token.0)).count() >= row.len()
 }
 
 /// Whether blanks part the fields of most lines: no other sign does, or commas are decimal signs between blanks.

@@ -15,6 +15,7 @@
 
 use super::assemble::{TableReader, order};
 use super::header::{Axis, Corner, Position, axis_of, position};
+use super::pieces::is_numeric;
 use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, ends_from_midship, origin, units};
 use super::settings::Settings;
@@ -77,10 +78,6 @@ fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
         }
     }
     (group, rest)
-}
-
-fn is_numeric(field: &Field) -> bool {
-    field.trimmed().trim_start_matches(['(', '-', '.']).starts_with(|c: char| c.is_ascii_digit())
 }
 
 /// The rows with their groups; none where the table has no labels and cells.

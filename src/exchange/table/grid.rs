@@ -4,6 +4,7 @@
 //! character is `#` is a comment; the last one before numbers alone, with as many fields as they have, is their header. Memory is bounded by [`LARGEST_TABLE`] bytes of text and [`MOST_CELLS`] fields.
 
 use super::blanks;
+use super::header::plain_number;
 use super::problem::{Field, FilePosition, Problems};
 
 /// Longer files are not tables of offsets \[bytes\].
@@ -115,7 +116,7 @@ pub(super) fn split(text: &str, separator: Option<char>, problems: &mut Problems
 
 /// Takes the header of rows of numbers from the last comment before them.
 fn header_of_comment(grid: &mut Grid) {
-    let is_number = |text: &str| text.trim().replace(',', ".").parse::<f64>().is_ok();
+    let is_number = |text: &str| plain_number(text).is_some();
     let Some(first) = grid.rows.iter().find(|row| !row.is_empty()) else { return };
     let Some(at) = grid.comments.iter().rposition(|(line, _)| *line < first[0].row) else { return };
     let (row, comment) = &grid.comments[at];

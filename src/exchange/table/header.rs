@@ -203,6 +203,22 @@ impl Corner {
     }
 }
 
+/// A number with a decimal point or a decimal comma.
+pub(super) fn plain_number(text: &str) -> Option<f64> {
+    text.trim().replace(',', ".").parse().ok()
+}
+
+/// Whether a text begins as a number does.
+pub(super) fn begins_as_number(text: &str) -> bool {
+    let text = text.trim().trim_start_matches(['(', '-', '+', '.', '\u{2212}', '\u{2013}']);
+    text.starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// Whether values rise, or fall, all along.
+pub(super) fn is_orderly<T: PartialOrd>(values: &[T]) -> bool {
+    values.windows(2).all(|pair| pair[0] < pair[1]) || values.windows(2).all(|pair| pair[0] > pair[1])
+}
+
 /// What a text without words writes.
 fn number(text: &str) -> Result<Coordinate, UnitError> {
     let measure = parse(text)?;

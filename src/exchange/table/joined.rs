@@ -1,7 +1,7 @@
 //! Half-breadths that are printed in several tables: more stations at the same waterlines, or more waterlines at the same
 //! stations.
 
-use super::header::{Axis, Coordinate, position};
+use super::header::{Axis, Coordinate, is_orderly, position};
 use super::matrix::{Block, MatrixRow};
 use super::problem::{Field, Problems};
 use crate::units::{CellEntry, CellRules, Notation, parse_cell};
@@ -22,9 +22,8 @@ fn number(place: Coordinate) -> Option<f64> {
 }
 
 /// Whether places rise or fall all along; those without a number are left to the reader of positions.
-fn is_orderly(places: impl Iterator<Item = Coordinate>) -> bool {
-    let numbers: Vec<f64> = places.filter_map(number).collect();
-    numbers.windows(2).all(|pair| pair[0] < pair[1]) || numbers.windows(2).all(|pair| pair[0] > pair[1])
+fn follow_each_other(places: impl Iterator<Item = Coordinate>) -> bool {
+    is_orderly(&places.filter_map(number).collect::<Vec<f64>>())
 }
 
 /// Which of two lists of places comes first, when they have none in common and follow each other.
@@ -32,7 +31,7 @@ fn second_first(a: &[Coordinate], b: &[Coordinate]) -> Option<bool> {
     if a.iter().any(|place| b.contains(place)) {
         return None;
     }
-    let joined = |first: &[Coordinate], second: &[Coordinate]| is_orderly(first.iter().chain(second).copied());
+    let joined = |first: &[Coordinate], second: &[Coordinate]| follow_each_other(first.iter().chain(second).copied());
     if joined(a, b) {
         return Some(false);
     }

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::columns::{Column, Named, Whole, column};
 use super::fields::decimals;
-use super::outline::take_off_deck;
+use super::outline::{keel_of, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
 use super::ratio::missing_dimensions;
 use super::sections::{decimals_in_metres, refuse_negative};
@@ -349,7 +349,6 @@ fn sections(table: &mut OffsetTable, problems: &mut Problems) {
             station.deck_half_breadth = Some(deck.side.y);
             station.deck_centre_height = Some(deck.centre_height);
         }
-        let keel = station.outlines.iter().flatten().filter(|p| p.y.abs() <= 1e-9).map(|p| p.z);
-        station.keel_height = station.keel_height.or(keel.min_by(f64::total_cmp));
+        station.keel_height = station.keel_height.or_else(|| keel_of(&station.outlines));
     }
 }

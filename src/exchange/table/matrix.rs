@@ -4,7 +4,7 @@
 //! from the conventions, else from the words of the headers, else from the numbers: a hull tapers to both of its ends,
 //! and does not taper upwards.
 
-use super::header::{Axis, Corner, axis_of, side_of};
+use super::header::{Axis, Corner, axis_of, is_orderly, plain_number, side_of};
 use super::pieces::Piece;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::Settings;
@@ -204,7 +204,7 @@ fn tapering(fields: &[Vec<Field>]) -> Option<Rows> {
     let (mut by_row, mut by_column) = (vec![0.0; fields.len() - 1], vec![0.0; fields[0].len().saturating_sub(1)]);
     for (i, row) in fields.iter().skip(1).enumerate() {
         for (j, field) in row.iter().skip(1).enumerate() {
-            let value: f64 = field.trimmed().replace(',', ".").parse().unwrap_or(0.0);
+            let value = plain_number(&field.text).unwrap_or(0.0);
             if value.is_finite() {
                 by_row[i] += value.abs();
                 by_column[j] += value.abs();
@@ -234,7 +234,7 @@ fn transposed(fields: Vec<Vec<Field>>) -> Vec<Vec<Field>> {
 }
 
 fn number(field: &Field) -> Option<f64> {
-    field.trimmed().replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite())
+    plain_number(&field.text).filter(|n| n.is_finite())
 }
 
 /// Whether numbers have neither stations nor waterlines beside them: the first field is one of them, or the first row or
@@ -243,8 +243,7 @@ fn is_bare(fields: &[Vec<Field>]) -> bool {
     let heads: Option<Vec<f64>> = fields[0].iter().map(number).collect();
     let Some(heads) = heads else { return false };
     let lines: Option<Vec<f64>> = fields.iter().skip(1).map(|row| number(&row[0])).collect();
-    let orderly = |all: &[f64]| all.windows(2).all(|w| w[1] > w[0]) || all.windows(2).all(|w| w[1] < w[0]);
-    heads[0].abs() > 0.0 || !orderly(&heads[1..]) || !lines.is_some_and(|lines| orderly(&lines))
+    heads[0].abs() > 0.0 || !is_orderly(&heads[1..]) || !lines.is_some_and(|lines| is_orderly(&lines))
 }
 
 /// Whether a header is words alone, without a number.

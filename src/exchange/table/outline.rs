@@ -106,6 +106,12 @@ pub(super) fn branches(half: Vec<OutlinePoint>) -> Vec<Vec<OutlinePoint>> {
     pieces
 }
 
+/// The height of the keel of some outlines: the lowest point on the centreplane.
+pub(super) fn keel_of(outlines: &[Vec<OutlinePoint>]) -> Option<f64> {
+    let keel = outlines.iter().flatten().filter(|p| p.y.abs() <= 1e-9).map(|p| p.z);
+    keel.min_by(f64::total_cmp)
+}
+
 /// Takes the deck off a branch that ends on the centreplane above: the nearly level lines beyond a corner at the side.
 pub(super) fn take_off_deck(branch: &mut Vec<OutlinePoint>) -> Option<Deck> {
     let top = *branch.last().filter(|p| on_centreplane(p))?;

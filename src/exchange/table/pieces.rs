@@ -3,7 +3,7 @@
 //!
 //! Empty rows and columns part the pieces. A piece that begins with numbers goes on with the table before it.
 
-use super::header::{Coordinate, position, side_of};
+use super::header::{Coordinate, begins_as_number, position, side_of};
 use super::problem::{Field, FilePosition, Problems};
 use crate::units::Notation;
 
@@ -31,9 +31,8 @@ pub(super) struct Pieces {
 }
 
 /// Whether a field begins as a number does.
-fn is_numeric(field: &Field) -> bool {
-    let text = field.trimmed().trim_start_matches(['(', '-', '+', '.', '\u{2212}', '\u{2013}']);
-    text.starts_with(|c: char| c.is_ascii_digit())
+pub(super) fn is_numeric(field: &Field) -> bool {
+    begins_as_number(&field.text)
 }
 
 /// Whether a header names where a line lies: by its number, or by a word for such lines.

@@ -1,7 +1,7 @@
 //! A table of offsets of sections given as lines of points.
 
 use super::fields::finish;
-use super::outline::{Deck, Halves, branches, deviation, halves};
+use super::outline::{Deck, Halves, branches, deviation, halves, keel_of};
 use super::problem::{FilePosition, Problems};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars, StationOffsets, TableForm, TableLayout};
@@ -134,10 +134,8 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
         .enumerate()
         .map(|(i, section)| {
             let outlines: Vec<Vec<OutlinePoint>> = section.branches.into_iter().flat_map(branches).collect();
-            let keel = outlines.iter().flatten().filter(|p| p.y.abs() <= 1e-9).map(|p| p.z);
-            let keel_height = keel.min_by(f64::total_cmp);
             StationOffsets {
-                keel_height,
+                keel_height: keel_of(&outlines),
                 deck_height: section.deck.map(|deck| deck.side.z),
                 deck_half_breadth: section.deck.map(|deck| deck.side.y),
                 deck_centre_height: section.deck.map(|deck| deck.centre_height),

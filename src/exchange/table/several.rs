@@ -1,6 +1,6 @@
 //! Rows that stand for several stations, as drawings have them in a parallel body: `4,5,6`, `4, 5 & 6`, `4-6`, `4 to 6`.
 
-use super::header::{Coordinate, position};
+use super::header::{Coordinate, is_orderly, position};
 use super::matrix::{Block, MatrixRow};
 use super::problem::{Field, Problems};
 
@@ -37,8 +37,7 @@ fn listed(text: &str) -> Option<Vec<u32>> {
             _ => return None,
         }
     }
-    let orderly = list.windows(2).all(|pair| pair[0] < pair[1]) || list.windows(2).all(|pair| pair[0] > pair[1]);
-    (list.len() > 1 && list.len() <= MOST && orderly).then_some(list)
+    (list.len() > 1 && list.len() <= MOST && is_orderly(&list)).then_some(list)
 }
 
 /// The plain number of a station.
