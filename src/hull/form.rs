@@ -17,7 +17,7 @@
 
 use super::chart;
 use super::particulars::PrincipalParticulars;
-use crate::spline::{BsplineCurve, BsplineSurface, SplineError};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE, SplineError};
 
 /// Coordinates of the net that differ by less than this part of the largest one differ by rounding: a net that falls by
 /// less does not fall, and stations on which x differs by less are upright.
@@ -184,6 +184,10 @@ impl Hull {
         surface: BsplineSurface<3>,
         deck: BsplineCurve<2>,
     ) -> Result<Self, HullError> {
+        let degrees = [surface.u(), surface.v(), deck.knots()].map(KnotVector::degree);
+        if let Some(&degree) = degrees.iter().find(|&&degree| degree > MAX_DEGREE) {
+            return Err(SplineError::Degree(degree).into());
+        }
         let p = particulars;
         let dimensions = [
             ("Lpp", Some(p.length_between_perpendiculars)),

@@ -4,10 +4,13 @@
 //! N_{i+1,j-1} upward from the one function of degree 0. A derivative of order m starts m rows lower and climbs with
 //! N'_{i,j} = j (N_{i,j-1} / (t_{i+j} - t_i) - N_{i+1,j-1} / (t_{i+j+1} - t_{i+1})). The reciprocals are precomputed.
 
-use super::knots::MAX_DEGREE;
+use super::knots::{HIGHEST_DEGREE, MAX_DEGREE};
 
 /// One value for each basis function of a span; those beyond the degree are 0.
 pub(super) type BasisValues = [f64; MAX_DEGREE + 1];
+
+/// As [`BasisValues`] for any degree.
+pub(super) type WideValues = [f64; HIGHEST_DEGREE + 1];
 
 /// `result[order][function]` for orders 0 to N - 1 of the K = p + 1 functions k - p ..= k at `t` in span k.
 ///
@@ -48,13 +51,13 @@ pub(super) fn basis_orders<const K: usize, const N: usize>(
     result
 }
 
-/// As [`basis_orders`], in rows of the greatest length.
-pub(super) fn padded_orders<const K: usize, const N: usize>(
+/// As [`basis_orders`], in rows of length W.
+pub(super) fn padded_orders<const K: usize, const N: usize, const W: usize>(
     window: &[f64],
     reciprocals: &[f64],
     t: f64,
-) -> [BasisValues; N] {
-    let mut result = [[0.0; MAX_DEGREE + 1]; N];
+) -> [[f64; W]; N] {
+    let mut result = [[0.0; W]; N];
     for (row, values) in result.iter_mut().zip(&basis_orders::<K, N>(window, reciprocals, t)) {
         row[..K].copy_from_slice(values);
     }
@@ -67,8 +70,8 @@ pub(super) fn padded_orders<const K: usize, const N: usize>(
 /// When the arguments are successive knots of a refinement, and knot k is the last one of the old knots that is not above
 /// the knot before them, this is a row of the Oslo algorithm (Cohen, Lyche & Riesenfeld 1980): no coefficient is negative
 /// and they sum to 1.
-pub(super) fn blossom_row(knots: &[f64], span: usize, arguments: &[f64]) -> BasisValues {
-    let mut values = [0.0; MAX_DEGREE + 1];
+pub(super) fn blossom_row(knots: &[f64], span: usize, arguments: &[f64]) -> WideValues {
+    let mut values = [0.0; HIGHEST_DEGREE + 1];
     values[0] = 1.0;
     for (j, t) in arguments.iter().enumerate().map(|(j, t)| (j + 1, t)) {
         let mut saved = 0.0;

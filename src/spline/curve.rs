@@ -1,6 +1,6 @@
 //! B-spline curves with D coordinates.
 
-use super::knots::{KnotVector, SplineError};
+use super::knots::{KnotVector, MAX_DEGREE, SplineError};
 
 /// C(t) = sum_i P_i N_i(t), D coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,10 +51,20 @@ impl<const D: usize> BsplineCurve<D> {
     /// The point and the derivatives of order 1 to N - 1 at parameter `t`, in one call; nothing is allocated.
     #[must_use]
     pub fn derivatives<const N: usize>(&self, t: f64) -> [[f64; D]; N] {
+        if self.knots.degree() > MAX_DEGREE {
+            let (first, basis) = self.knots.wide_orders_at::<N>(t);
+            return self.combined(first, &basis);
+        }
         let (first, basis) = self.knots.orders_at::<N>(t);
+        self.combined(first, &basis)
+    }
+
+    /// The sums of the control points from `first` on with each row of weights.
+    #[inline(always)]
+    fn combined<const N: usize, const W: usize>(&self, first: usize, basis: &[[f64; W]; N]) -> [[f64; D]; N] {
         let mut result = [[0.0; D]; N];
         for (i, point) in self.points[first..=first + self.knots.degree()].iter().enumerate() {
-            for (row, order) in result.iter_mut().zip(&basis) {
+            for (row, order) in result.iter_mut().zip(basis) {
                 for (sum, coordinate) in row.iter_mut().zip(point) {
                     *sum += order[i] * coordinate;
                 }

@@ -5,6 +5,7 @@
 //! needs no bases. A grid computes the bases once a line and collapses the net once a line u = constant, after which a
 //! point costs O(q).
 
+use super::knots::MAX_DEGREE;
 use super::surface::BsplineSurface;
 
 /// Point and partial derivatives up to the second order of a surface.
@@ -40,7 +41,7 @@ macro_rules! by_degree {
     ($surface:expr, $fixed:ident, $arguments:tt, $other:expr) => {{
         let (p, q) = ($surface.u().degree(), $surface.v().degree());
         match p {
-            _ if p != q => $other,
+            _ if p != q || p > MAX_DEGREE => $other,
             1 => by_degree!(@call $surface, $fixed, 2, $arguments),
             2 => by_degree!(@call $surface, $fixed, 3, $arguments),
             3 => by_degree!(@call $surface, $fixed, 4, $arguments),
@@ -65,7 +66,19 @@ impl<const D: usize> BsplineSurface<D> {
     /// `result[a][b]` is the derivative of order a in u and b in v, 0 to N - 1 each, in one call; nothing is allocated.
     #[must_use]
     pub fn derivatives<const N: usize>(&self, u: f64, v: f64) -> [[[f64; D]; N]; N] {
-        let ((first_u, basis_u), (first_v, basis_v)) = (self.u().orders_at::<N>(u), self.v().orders_at::<N>(v));
+        if self.u().degree().max(self.v().degree()) > MAX_DEGREE {
+            return self.combined(self.u().wide_orders_at::<N>(u), self.v().wide_orders_at::<N>(v));
+        }
+        self.combined(self.u().orders_at::<N>(u), self.v().orders_at::<N>(v))
+    }
+
+    /// The sums of the net from each first index on with the weights of each order.
+    #[inline(always)]
+    fn combined<const N: usize, const W: usize>(
+        &self,
+        (first_u, basis_u): (usize, [[f64; W]; N]),
+        (first_v, basis_v): (usize, [[f64; W]; N]),
+    ) -> [[[f64; D]; N]; N] {
         let columns = self.v().basis_count();
         let mut result = [[[0.0; D]; N]; N];
         for i in 0..=self.u().degree() {
@@ -192,7 +205,15 @@ impl<const D: usize> BsplineSurface<D> {
             4 => self.grid_fixed::<5>(us, vs, visit),
             5 => self.grid_fixed::<6>(us, vs, visit),
             6 => self.grid_fixed::<7>(us, vs, visit),
-            _ => self.grid_fixed::<8>(us, vs, visit),
+            7 => self.grid_fixed::<8>(us, vs, visit),
+            8 => self.grid_fixed::<9>(us, vs, visit),
+            9 => self.grid_fixed::<10>(us, vs, visit),
+            10 => self.grid_fixed::<11>(us, vs, visit),
+            11 => self.grid_fixed::<12>(us, vs, visit),
+            12 => self.grid_fixed::<13>(us, vs, visit),
+            13 => self.grid_fixed::<14>(us, vs, visit),
+            14 => self.grid_fixed::<15>(us, vs, visit),
+            _ => self.grid_fixed::<16>(us, vs, visit),
         }
     }
 
@@ -202,7 +223,7 @@ impl<const D: usize> BsplineSurface<D> {
         // The net summed in u with the weights of the value, the first and the second derivative.
         let mut line = vec![[[0.0; D]; 3]; columns];
         for (i, &u) in us.iter().enumerate() {
-            let (first, basis) = self.u().orders_at::<3>(u);
+            let (first, basis) = self.u().wide_orders_at::<3>(u);
             line.fill([[0.0; D]; 3]);
             for (k, row) in self.points().chunks_exact(columns).skip(first).take(self.u().degree() + 1).enumerate() {
                 for (sums, point) in line.iter_mut().zip(row) {

@@ -1,17 +1,20 @@
 //! Knot vectors and the B-spline basis over them (Piegl & Tiller 1997, chapter 2; de Boor 2001, chapter IX).
 
-use super::basis::{BasisValues, basis_orders, padded_orders};
+use super::basis::{BasisValues, WideValues, basis_orders, padded_orders};
 use super::table::{Cubic, SpanTable};
 use std::sync::Arc;
 
-/// The highest degree of a spline.
+/// The highest degree of a spline whose bases are asked for: of nets of hulls, of fits.
 pub const MAX_DEGREE: usize = 7;
+
+/// The highest degree of a spline that is evaluated, cut and clamped, as CAD files have them.
+pub const HIGHEST_DEGREE: usize = 15;
 
 /// Why data do not make a spline.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SplineError {
-    /// Degree outside 1 to [`MAX_DEGREE`].
-    #[error("degree {0} is outside 1 to {MAX_DEGREE}")]
+    /// Degree outside 1 to [`HIGHEST_DEGREE`], or above [`MAX_DEGREE`] where a spline is fitted or elevated.
+    #[error("degree {0} is outside 1 to {HIGHEST_DEGREE} ({MAX_DEGREE} where a spline is fitted or elevated)")]
     Degree(usize),
     /// Knots that are not finite, decrease, are not clamped or repeat too often.
     #[error("knot {index} ({value}): {problem}")]
@@ -76,10 +79,10 @@ impl KnotVector {
     /// Takes the full sequence of knots, `basis functions + degree + 1` of them.
     ///
     /// # Errors
-    /// [`SplineError`] when the degree is outside 1 to [`MAX_DEGREE`], a knot is not finite, the sequence decreases, an
+    /// [`SplineError`] when the degree is outside 1 to [`HIGHEST_DEGREE`], a knot is not finite, the sequence decreases, an
     /// end is not `degree + 1` fold or an interior knot is more than `degree` fold.
     pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, SplineError> {
-        if !(1..=MAX_DEGREE).contains(&degree) {
+        if !(1..=HIGHEST_DEGREE).contains(&degree) {
             return Err(SplineError::Degree(degree));
         }
         let bad = |index: usize, problem| {
@@ -210,6 +213,9 @@ impl KnotVector {
     }
 
     /// Values of the `degree + 1` basis functions span - p ..= span at `t`; the rest of the array is 0.
+    ///
+    /// # Panics
+    /// When the degree is above [`MAX_DEGREE`].
     #[must_use]
     pub fn basis(&self, span: usize, t: f64) -> [f64; MAX_DEGREE + 1] {
         self.basis_derivatives::<1>(span, t)[0]
@@ -217,6 +223,9 @@ impl KnotVector {
 
     /// Values and derivatives of order 0 to N - 1 of the basis functions span - p ..= span at `t`:
     /// `result[order][function]`. Orders above the degree are 0. Nothing is allocated.
+    ///
+    /// # Panics
+    /// When the degree is above [`MAX_DEGREE`].
     #[must_use]
     pub fn basis_derivatives<const N: usize>(&self, span: usize, t: f64) -> [[f64; MAX_DEGREE + 1]; N] {
         self.orders_in(self.table.number_of(span), t)
@@ -281,17 +290,42 @@ impl KnotVector {
         (first, basis_orders::<K, N>(&self.knots[first + 1..], self.table.reciprocals(number), t))
     }
 
+    /// As [`Self::orders_at`] for any degree.
+    pub(super) fn wide_orders_at<const N: usize>(&self, t: f64) -> (usize, [WideValues; N]) {
+        let t = self.clamp(t);
+        let number = self.table.locate(t);
+        let first = self.table.knot_index(number) - self.degree;
+        let (window, reciprocals) = (&self.knots[first + 1..], self.table.reciprocals(number));
+        let orders = match self.degree {
+            8 => padded_orders::<9, N, { HIGHEST_DEGREE + 1 }>(window, reciprocals, t),
+            9 => padded_orders::<10, N, { HIGHEST_DEGREE + 1 }>(window, reciprocals, t),
+            10 => padded_orders::<11, N, { HIGHEST_DEGREE + 1 }>(window, reciprocals, t),
+            11 => padded_orders::<12, N, { HIGHEST_DEGREE + 1 }>(window, reciprocals, t),
+            12 => padded_orders::<13, N, { HIGHEST_DEGREE + 1 }>(window, reciprocals, t),
+            13 => padded_orders::<14, N, { HIGHEST_DEGREE + 1 }>(window, reciprocals, t),
+            14 => padded_orders::<15, N, { HIGHEST_DEGREE + 1 }>(window, reciprocals, t),
+            15 => padded_orders::<16, N, { HIGHEST_DEGREE + 1 }>(window, reciprocals, t),
+            _ => self.orders_in::<N>(number, t).map(|narrow| {
+                let mut wide = [0.0; HIGHEST_DEGREE + 1];
+                wide[..=MAX_DEGREE].copy_from_slice(&narrow);
+                wide
+            }),
+        };
+        (first, orders)
+    }
+
     fn orders_in<const N: usize>(&self, number: usize, t: f64) -> [BasisValues; N] {
         let window = &self.knots[self.table.knot_index(number) + 1 - self.degree..];
         let reciprocals = self.table.reciprocals(number);
         match self.degree {
-            1 => padded_orders::<2, N>(window, reciprocals, t),
-            2 => padded_orders::<3, N>(window, reciprocals, t),
-            3 => padded_orders::<4, N>(window, reciprocals, t),
-            4 => padded_orders::<5, N>(window, reciprocals, t),
-            5 => padded_orders::<6, N>(window, reciprocals, t),
-            6 => padded_orders::<7, N>(window, reciprocals, t),
-            _ => padded_orders::<8, N>(window, reciprocals, t),
+            1 => padded_orders::<2, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
+            2 => padded_orders::<3, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
+            3 => padded_orders::<4, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
+            4 => padded_orders::<5, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
+            5 => padded_orders::<6, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
+            6 => padded_orders::<7, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
+            7 => padded_orders::<8, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
+            degree => panic!("bases of degree {degree} are not asked for, {MAX_DEGREE} at most"),
         }
     }
 }
@@ -328,7 +362,7 @@ mod tests {
 
     #[test]
     fn bad_knots_are_errors() {
-        assert_eq!(KnotVector::uniform(8, 2), Err(SplineError::Degree(8)));
+        assert_eq!(KnotVector::uniform(16, 2), Err(SplineError::Degree(16)));
         let problem = |knots: &[f64]| match KnotVector::new(2, knots.to_vec()) {
             Err(SplineError::Knot { index, problem, .. }) => (index, problem),
             other => panic!("{other:?}"),

@@ -1,6 +1,6 @@
 //! B-spline kernel: knots, basis, curves, surfaces, refinement, fitting, exact integrals, curvature. It knows no ship.
 //!
-//! Conventions: degree 1 to [`MAX_DEGREE`], clamped knots (both ends `degree + 1` fold), interior multiplicities up to
+//! Conventions: degree 1 to [`MAX_DEGREE`] ([`HIGHEST_DEGREE`] where splines are only evaluated, cut and clamped), clamped knots (both ends `degree + 1` fold), interior multiplicities up to
 //! `degree` (a multiplicity of `degree` is a corner, `degree - 1` a jump of curvature). Functions are continuous from
 //! the right; the last span is closed. Arguments outside the domain are taken to its nearest end. Nets are stored `u`
 //! slowest. Signs of curvature: a planar curve that turns left is positive; a surface that bends towards S_u x S_v is
@@ -37,7 +37,7 @@ pub use energy::{Energy, MinimumEnergy};
 pub use evaluate::{SurfaceJet, SurfaceTangents};
 pub use fit::{Collocation, Condition};
 pub use gram::Gram;
-pub use knots::{KnotVector, MAX_DEGREE, SplineError};
+pub use knots::{HIGHEST_DEGREE, KnotVector, MAX_DEGREE, SplineError};
 pub use least_squares::Ends;
 pub use net::{add_product, basis_row, binomial, energy};
 pub use parametrize::Parametrization;

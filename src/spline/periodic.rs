@@ -51,7 +51,7 @@ impl PeriodicCollocation {
         // Knots -lead ..; function i of the periodic basis starts at knot i.
         let lead = 2 * (p + 1);
         let unclamped: Vec<f64> = (-(lead as isize)..=(n + lead) as isize).map(knot).collect();
-        let rows: Vec<(usize, [f64; MAX_DEGREE + 1])> = (0..n)
+        let rows: Vec<(usize, super::basis::WideValues)> = (0..n)
             .map(|i| {
                 // The site lies in the span that starts at knot i.
                 let span = i + lead;

@@ -1,13 +1,13 @@
-//! Knot insertion, degree elevation and splitting: new control points of the same shape.
+//! Knot insertion, degree elevation, splitting and clamping: new control points of the same shape.
 //!
 //! Every new control point is a blossom of the old spline at successive new knots. Arranged as rows of the Oslo
 //! algorithm (Cohen, Lyche & Riesenfeld 1980; Lyche & Morken 1986) it is a convex combination of at most `degree + 1`
 //! old ones, so that rounding does not grow: shapes are kept to about 1e-15 of their size. Elevation is the mean over
 //! the blossoms that leave out one argument (Ramshaw 1989; Piegl & Tiller 1997, 5.5).
 
-use super::basis::{BasisValues, blossom_row};
+use super::basis::{WideValues, blossom_row};
 use super::curve::BsplineCurve;
-use super::knots::{KnotVector, MAX_DEGREE, SplineError};
+use super::knots::{HIGHEST_DEGREE, KnotVector, MAX_DEGREE, SplineError};
 use super::surface::BsplineSurface;
 
 /// The index k with t_k <= t < t_{k+1} among old knots, within the spans `degree ..= count - 1` of positive length.
@@ -22,7 +22,7 @@ fn last_not_above(knots: &[f64], degree: usize, count: usize, t: f64) -> usize {
 /// One new control point: index of the first old control point it depends on, and the weights.
 pub(super) struct RefinementRow {
     pub(super) first: usize,
-    pub(super) weights: BasisValues,
+    pub(super) weights: WideValues,
 }
 
 /// Rows that take control points over `old` knots (of `degree`, clamped or not) to control points over the refinement
@@ -162,6 +162,41 @@ fn part<const D: usize>(
     Ok((KnotVector::new(p, new)?, apply_refinement(&rows, p, points, width)))
 }
 
+/// Items over knots that need not be clamped: the same shape on its domain [t_p, t_n], n items, over clamped knots.
+fn clamped<const D: usize>(
+    degree: usize,
+    knots: Vec<f64>,
+    points: Vec<[f64; D]>,
+    width: usize,
+) -> Result<Changed<D>, SplineError> {
+    let expected = knots.len().saturating_sub(degree + 1);
+    if degree < 1 || degree > HIGHEST_DEGREE {
+        return Err(SplineError::Degree(degree));
+    }
+    if expected <= degree || points.len() != expected * width {
+        return Err(SplineError::PointCount { found: points.len(), expected: expected * width });
+    }
+    let bad = |index: usize, problem| Err(SplineError::Knot { index, value: knots[index], problem });
+    if let Some(index) = knots.iter().position(|t| !t.is_finite()) {
+        return bad(index, "not finite");
+    }
+    if let Some(index) = knots.windows(2).position(|w| w[1] < w[0]) {
+        return bad(index + 1, "smaller than the knot before it");
+    }
+    let (a, b) = (knots[degree], knots[expected]);
+    if b <= a {
+        return bad(expected, "not above the start of the domain");
+    }
+    let inside = knots.iter().copied().filter(|&t| t > a && t < b);
+    let new: Vec<f64> =
+        std::iter::repeat_n(a, degree + 1).chain(inside).chain(std::iter::repeat_n(b, degree + 1)).collect();
+    if new == knots {
+        return Ok((KnotVector::new(degree, new)?, points));
+    }
+    let rows = refinement_rows(degree, &knots, &new);
+    Ok((KnotVector::new(degree, new)?, apply_refinement(&rows, degree, &points, width)))
+}
+
 /// The knots that are missing to make every interior breakpoint `degree` fold.
 pub(super) fn missing_for_bezier(knots: &KnotVector) -> Vec<f64> {
     let breaks = knots.breakpoints();
@@ -170,6 +205,16 @@ pub(super) fn missing_for_bezier(knots: &KnotVector) -> Vec<f64> {
 }
 
 impl<const D: usize> BsplineCurve<D> {
+    /// The curve of control points over knots that need not be clamped, periodic ones among them, on its domain
+    /// [t_p, t_n] (n control points): knots are inserted until both ends are `degree + 1` fold (Boehm 1980).
+    ///
+    /// # Errors
+    /// [`SplineError`] when degree, knots and points do not make a spline.
+    pub fn clamped(degree: usize, knots: Vec<f64>, points: Vec<[f64; D]>) -> Result<Self, SplineError> {
+        let (knots, points) = clamped(degree, knots, points, 1)?;
+        Self::new(knots, points)
+    }
+
     /// The same curve with more knots, each as often as listed; the order does not matter.
     ///
     /// # Errors
@@ -232,6 +277,21 @@ impl KnotVector {
 }
 
 impl<const D: usize> BsplineSurface<D> {
+    /// The surface of a net, `u` slowest, over knots that need not be clamped in either direction; see
+    /// [`BsplineCurve::clamped`].
+    ///
+    /// # Errors
+    /// [`SplineError`] when degrees, knots and points do not make a spline.
+    pub fn clamped(degrees: [usize; 2], knots: [Vec<f64>; 2], points: Vec<[f64; D]>) -> Result<Self, SplineError> {
+        let [in_u, in_v] = knots;
+        let columns = in_v.len().saturating_sub(degrees[1] + 1);
+        let (u, points) = clamped(degrees[0], in_u, points, columns)?;
+        let rows = u.basis_count();
+        let turned = (0..columns).flat_map(|j| (0..rows).map(move |i| i * columns + j)).map(|k| points[k]).collect();
+        let (v, net) = clamped(degrees[1], in_v, turned, rows)?;
+        Ok(Self::new(v, u, net)?.transposed())
+    }
+
     /// The same surface with more knots in u and in v.
     ///
     /// # Errors
@@ -320,6 +380,71 @@ mod tests {
             points[7],
         ];
         assert!(distance(new.points(), &expected) < 1e-14, "{:?}", new.points());
+    }
+
+    /// A circle of seven points over periodic knots, and a cubic over uniform ones, before and after they are clamped.
+    #[test]
+    fn splines_over_periodic_knots_are_clamped_exactly() {
+        let third = std::f64::consts::TAU / 3.0;
+        let knots: Vec<f64> = [-1, 0, 0, 1, 1, 2, 2, 3, 3, 4].map(|k| f64::from(k) * third).to_vec();
+        let round = |k: usize| {
+            let (w, radius) = if k % 2 == 0 { (1.0, 1.0) } else { (0.5, 2.0) };
+            let angle = 0.5 * third * k as f64;
+            [w * radius * angle.cos(), w * radius * angle.sin(), w]
+        };
+        let points: Vec<[f64; 3]> = (0..7).map(round).collect();
+        let circle = BsplineCurve::clamped(2, knots.clone(), points.clone()).unwrap();
+        assert_eq!(circle.knots().domain(), (0.0, 3.0 * third));
+        for k in 0..=60 {
+            let [x, y, w] = circle.eval(f64::from(k) * third / 20.0);
+            assert!((x.hypot(y) / w - 1.0).abs() < 1e-14);
+        }
+        let cubic = BsplineCurve::clamped(3, (0..9).map(f64::from).collect(), vec![[0.0], [6.0], [-6.0], [3.0], [1.0]]);
+        let cubic = cubic.unwrap();
+        assert_eq!(cubic.knots().domain(), (3.0, 5.0));
+        // (P_0 + 4 P_1 + P_2)/6 at its start, by the uniform basis.
+        for (t, exact) in [(3.0, 3.0), (4.0, (6.0 - 24.0 + 3.0) / 6.0), (5.0, (-6.0 + 12.0 + 1.0) / 6.0)] {
+            assert!((cubic.eval(t)[0] - exact).abs() < 1e-14, "{t}");
+        }
+        // A cylinder, with the circle in either direction.
+        let pair = vec![0.0, 0.0, 2.0, 2.0];
+        let net: Vec<[f64; 4]> = points.iter().flat_map(|&[x, y, w]| [[x, y, 0.0, w], [x, y, 2.0 * w, w]]).collect();
+        let along = BsplineSurface::clamped([2, 1], [knots.clone(), pair.clone()], net.clone()).unwrap();
+        let turned = (0..2).flat_map(|j| (0..7).map(move |i| 2 * i + j)).map(|k| net[k]).collect();
+        let around = BsplineSurface::clamped([1, 2], [pair, knots], turned).unwrap();
+        assert_eq!(around.transposed(), along);
+        let [x, y, z, w] = along.eval(1.0, 0.5);
+        assert!((x.hypot(y) / w - 1.0).abs() < 1e-14 && (z / w - 0.5).abs() < 1e-14);
+        let refused = BsplineCurve::clamped(2, vec![0.0, 1.0, 1.0, 1.0, 1.0, 2.0], vec![[0.0]; 3]).unwrap_err();
+        assert!(refused.to_string().contains("not above the start of the domain"), "{refused}");
+    }
+
+    /// Bernstein polynomials of all degrees that files have.
+    #[test]
+    fn high_degrees_are_evaluated_and_cut() {
+        for degree in 8..=HIGHEST_DEGREE {
+            let points: Vec<[f64; 2]> =
+                (0..=degree).map(|k| [k as f64 / degree as f64, f64::from(k == degree)]).collect();
+            let curve = BsplineCurve::new(KnotVector::uniform(degree, 1).unwrap(), points).unwrap();
+            let half = curve.part(0.25, 0.75).unwrap();
+            for t in [0.25, 0.4, 0.75] {
+                for [[x, y], [dx, _]] in [curve.derivatives::<2>(t), half.derivatives::<2>(t)] {
+                    assert!(
+                        (x - t).abs() < 1e-14 && (y - t.powi(degree as i32)).abs() < 1e-14 && (dx - 1.0).abs() < 1e-12
+                    );
+                }
+            }
+            let line = KnotVector::uniform(1, 1).unwrap();
+            let net = curve.points().iter().flat_map(|&[x, y]| [[x, y], [x, y + 1.0]]).collect();
+            let surface = BsplineSurface::new(curve.knots().clone(), line, net).unwrap();
+            for surface in [surface.clone(), surface.transposed()] {
+                let wanted = [0.5, 0.5f64.powi(degree as i32) + 0.5];
+                let mut seen = surface.eval(0.5, 0.5);
+                assert!((0..2).all(|d| (seen[d] - wanted[d]).abs() < 1e-14));
+                surface.grid_jets(&[0.5], &[0.5], |_, _, jet| seen = jet.point);
+                assert!((0..2).all(|d| (seen[d] - wanted[d]).abs() < 1e-14));
+            }
+        }
     }
 
     /// Worked example 5.2 of the same: 2 once more, weights 2/3 and 1/3.

@@ -85,7 +85,7 @@ impl<const D: usize> BsplineSurface<D> {
     /// The curve u -> S(u, v) at fixed `v`, exactly.
     #[must_use]
     pub fn curve_at_v(&self, v: f64) -> BsplineCurve<D> {
-        let (first, [basis]) = self.v.orders_at::<1>(v);
+        let (first, [basis]) = self.v.wide_orders_at::<1>(v);
         let points = (0..self.u.basis_count())
             .map(|i| {
                 let mut sum = [0.0; D];
@@ -104,7 +104,7 @@ impl<const D: usize> BsplineSurface<D> {
     /// The curve v -> S(u, v) at fixed `u`, exactly.
     #[must_use]
     pub fn curve_at_u(&self, u: f64) -> BsplineCurve<D> {
-        let (first, [basis]) = self.u.orders_at::<1>(u);
+        let (first, [basis]) = self.u.wide_orders_at::<1>(u);
         let points = (0..self.v.basis_count())
             .map(|j| {
                 let mut sum = [0.0; D];
