@@ -126,7 +126,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (table, warnings) = source.curves_of_form(&draughts, &conventions(arguments, source.conventions))?;
     warnings.iter().for_each(|warning| stream::message(warning));
     let text = if arguments.json {
-        stream::json(&hydrostatics_json(source.hull(), &table).map_err(|e| Failure::Internal(e.to_string()))?)?
+        let all = source.warnings().chain(warnings).collect::<Vec<String>>();
+        stream::json(&hydrostatics_json(source.hull(), &table, &all).map_err(|e| Failure::Internal(e.to_string()))?)?
     } else if arguments.csv {
         hydrostatics_csv(&table)
     } else {

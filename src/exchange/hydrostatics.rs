@@ -164,15 +164,20 @@ pub fn row_json(row: &Hydrostatics) -> Value {
     Value::Object(object)
 }
 
-/// `{"conventions": {...}, "rows": [{"T": ..., ...}, ...], "hull": {...}}`, the hull as in `hull.json`; null for a body
-/// of triangles.
+/// `{"conventions": {...}, "warnings": [...], "rows": [{"T": ..., ...}, ...], "hull": {...}}`, the hull as in `hull.json`;
+/// null for a body of triangles.
 ///
 /// # Errors
 /// A number that JSON cannot write; a [`Hull`] has none.
-pub fn hydrostatics_json(hull: Option<&Hull>, table: &CurvesOfForm) -> Result<Value, serde_json::Error> {
+pub fn hydrostatics_json(
+    hull: Option<&Hull>,
+    table: &CurvesOfForm,
+    warnings: &[String],
+) -> Result<Value, serde_json::Error> {
     let written = hull.map(|hull| write_hull(hull, &table.conventions)).transpose()?;
     Ok(json!({
         "conventions": conventions_json(&table.conventions),
+        "warnings": warnings,
         "rows": table.rows.iter().map(row_json).collect::<Vec<_>>(),
         "hull": written.map(|text| serde_json::from_str::<Value>(&text)).transpose()?,
     }))

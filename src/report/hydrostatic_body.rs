@@ -44,6 +44,15 @@ impl HydrostaticBody {
         }
     }
 
+    /// Those of the notes that are warnings.
+    pub fn warnings(&self) -> impl Iterator<Item = String> + '_ {
+        let is_warning = |note: &&String| {
+            let code = note.as_bytes();
+            code.len() > 4 && code[0] == b'W' && code[1..4].iter().all(u8::is_ascii_digit)
+        };
+        self.notes.iter().filter(is_warning).cloned()
+    }
+
     /// Heights of the lowest and the highest point \[m\]; none of a hull.
     fn heights(&self) -> Option<[f64; 2]> {
         match &self.body {
