@@ -317,45 +317,13 @@ fn units_and_axes_of_cad_files() {
     close(volume("a", &milli, "[table]\nunits = 'm'\n"), 20_000.0);
     let said = close(volume("a", &step, "[table]\naxes = '-x y z'\nx_origin = 100\n"), 20_000.0);
     assert!(!said.contains("W320"), "{said}");
-    // Surfaces of other kinds are named and left out.
+    // A surface of no face is construction; a face without a surface that is read is missing.
     let other = step.replace("DATA;\n", "DATA;\n#9001=CYLINDRICAL_SURFACE('',#1,1.);\n");
     assert_ne!(other, step);
-    let said = close(volume("a", &other, ""), 20_000.0);
-    assert!(said.contains("W352") && said.contains("1 CYLINDRICAL_SURFACE are not read"), "{said}");
-}
-
-#[test]
-fn trimming_that_is_not_read_is_told() {
-    let iges = golden("box.igs");
-    let last = |letter: &str| iges.lines().filter(|line| line[72..].starts_with(letter)).count();
-    let (entries, parameters) = (last("D"), last("P"));
-    // A surface with a curve around it, and one whose edge is its own.
-    let with = |kind: usize, list: &str| {
-        let field = |value: usize| format!("{value:8}");
-        let first: String = [kind, parameters + 1, 0, 0, 0, 0, 0, 0, 0].map(field).concat();
-        let second: String = [kind, 0, 0, 1, 0, 0, 0, 0, 0].map(field).concat();
-        let added = format!("{first}D{:7}\n{second}D{:7}\n", entries + 1, entries + 2);
-        let told = format!("{list:<64}{:8}P{:7}\n", entries + 1, parameters + 1);
-        let letter = |line: &str| line[72..73].to_owned();
-        let mut text = String::new();
-        for line in iges.lines() {
-            match letter(line).as_str() {
-                "P" if line[73..].trim() == "1" => text.push_str(&added),
-                "T" => text.push_str(&told),
-                _ => {}
-            }
-            text.push_str(line);
-            text.push('\n');
-        }
-        volume("box.igs", &text, "").unwrap().1
-    };
-    let said = with(144, "144,1,1,0,3;");
-    assert!(
-        said.contains("W352") && said.contains("1 trimmed surfaces (entities 143, 144) are read untrimmed"),
-        "{said}"
-    );
-    assert!(with(143, "143,0,1,1,3;").contains("read untrimmed"));
-    assert!(!with(144, "144,1,0,0,0;").contains("read untrimmed"));
+    close(volume("a", &other, ""), 20_000.0);
+    let missing = step.replace("DATA;\n", "DATA;\n#9002=ADVANCED_FACE('',(),#1,.T.);\n");
+    let found = volume("a", &missing, "").unwrap_err();
+    assert!(found.contains("E352") && found.contains("1 of 7 faces cannot be read"), "{found}");
 }
 
 #[test]
@@ -373,10 +341,13 @@ fn faults_of_cad_files_name_their_record() {
     let without = step.replacen("3,3,((#", "3,3,((#99999,#", 1);
     assert_ne!(without, step);
     let found = error("box.step", &without);
-    assert!(found.contains("row ") && found.contains("not a B-spline surface that can be used"), "{found}");
+    assert!(
+        found.contains("row ") && found.contains("E352") && found.contains("its surface cannot be read"),
+        "{found}"
+    );
     let found = error("box.step", &step.replace("DATA;", "DATA;\n#5;\n"));
     assert!(found.contains("'#5'") && found.contains("not an instance"), "{found}");
-    assert!(error("a.stp", "ISO-10303-21;\nDATA;\nENDSEC;\n").contains("no B_SPLINE_SURFACE_WITH_KNOTS"));
+    assert!(error("a.stp", "ISO-10303-21;\nDATA;\nENDSEC;\n").contains("no faces, and no B_SPLINE_SURFACE_WITH_KNOTS"));
 }
 
 #[test]

@@ -82,10 +82,46 @@ fn shells_that_reach_into_others_are_named() {
     assert!(stderr(&output).contains("shells of 12 triangles reach into others"), "{}", stderr(&output));
 }
 
+/// Files of OpenCASCADE: faces on planes, cylinders, spheres and splines, trimmed and not, and splines over periodic knots.
+/// The volumes are those of OpenCASCADE, or closed forms.
 #[test]
-fn edges_of_surfaces_are_no_sections() {
-    let output = program(&["hydro", &case("pontoon.igs").display().to_string(), "--draughts", "2"]);
-    assert!(output.status.code() == Some(3) && stderr(&output).contains("6 of 108"), "{}", stderr(&output));
+fn faces_of_cad_files_displace_what_is_inside_them() {
+    let cases = [
+        ("pontoon.igs", 2.0, 1440.0),
+        ("barge_mm.step", 2.0, 600.720_116_836),
+        ("cyl-nurbs.step", 6.0, 1080.0 * std::f64::consts::PI),
+        ("moonpool.step", 2.0, 640.0 - 4.5 * std::f64::consts::PI),
+        ("moonpool.igs", 2.0, 640.0 - 4.5 * std::f64::consts::PI),
+        ("bulb.step", 2.5, 461.453_723_217),
+        ("sphere.igs", 0.0, 250.0 / 3.0 * std::f64::consts::PI),
+        ("cone.step", 0.5, 184.989_941_823),
+        ("thruster.step", 2.5, 268.125_596),
+    ];
+    for (name, draught, volume) in cases {
+        let found = row(name, draught).unwrap_or_else(|error| panic!("{name}: {error}")).displacement_volume;
+        assert!((found - volume).abs() <= 1e-6 * volume, "{name}: {found}, expected {volume}");
+    }
+    let notes = read_hydrostatic_body(&case("moonpool.step")).unwrap().notes;
+    assert!(!notes.iter().any(|note| note.starts_with('W')), "{notes:?}");
+}
+
+/// A hemisphere between two poles of its sphere: the file does not say which.
+#[test]
+fn faces_that_cannot_be_read_are_counted_by_their_kinds() {
+    let output = program(&["hydro", &case("bulb.igs").display().to_string(), "--draughts", "2"]);
+    let said = stderr(&output);
+    assert!(output.status.code() == Some(3) && said.contains("E352") && said.contains("of entity 120"), "{said}");
+}
+
+#[test]
+fn warnings_stand_in_the_document() {
+    let output = program(&["hydro", &case("cyl-nurbs.step").display().to_string(), "--draughts", "6", "--json"]);
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["warnings"], serde_json::json!([]), "{document}");
+    let output = program(&["hydro", &case("sphere.igs").display().to_string(), "--draughts=0", "--json"]);
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let warnings = document["warnings"].as_array().unwrap();
+    assert!(warnings.iter().any(|text| text.as_str().unwrap().starts_with("W320")), "{warnings:?}");
 }
 
 #[test]

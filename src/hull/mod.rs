@@ -4,6 +4,7 @@
 //! Frame (right-handed): x forward from the aft perpendicular AP, y to port, z up from the moulded base line; metres.
 
 mod area;
+mod brep;
 mod cell;
 mod chart;
 mod charted;
@@ -27,6 +28,7 @@ mod vertices;
 
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
+pub use brep::{Brep, BrepEdge, BrepFace, BrepMesh, Conic, FaceFault, FaceSurface, Motion, Nearest, SpaceCurve, frame};
 pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written};
 pub(crate) use charted::advance;
 pub use diagonal::diagonal_offset;

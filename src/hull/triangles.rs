@@ -9,6 +9,7 @@ mod shells;
 mod surfaces;
 
 pub use shells::InnerShells;
+pub(super) use surfaces::Bends;
 
 use super::mesh::{MeshReport, measure};
 use super::vertices::Known;

@@ -4,6 +4,8 @@
 //! Records of 80 columns: text in the first 72, a letter and a number from 73 on.
 
 mod entities;
+mod faces;
+mod geometry;
 mod read;
 
 pub(in super::super) use read::{is_iges, read_iges};

@@ -10,7 +10,7 @@ pub use iges::write_iges;
 pub(super) use iges::{is_iges, read_iges};
 pub use step::write_step;
 pub(super) use step::{is_step, read_step};
-pub(super) use surfaces::{CadCurve, CadSurfaces};
+pub(super) use surfaces::{CadCurve, CadSurfaces, Unread};
 
 /// Unit of length of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+mod faces;
+mod geometry;
 mod read;
 
 pub(in super::super) use read::{is_step, read_step};

@@ -1,7 +1,8 @@
 //! The surfaces of a CAD file, without what trims them.
 
 use super::super::fault::Faults;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use crate::hull::Brep;
+use crate::spline::{BsplineCurve, BsplineSurface};
 
 /// Most control points of a file.
 pub(super) const MOST_POINTS: usize = 2_000_000;
@@ -17,6 +18,23 @@ pub(in super::super) struct CadSurfaces {
     pub(in super::super) curves: Vec<CadCurve>,
     /// What of the file is not used, in words.
     pub(in super::super) notes: Vec<String>,
+    /// The faces, of a file that says what is inside and outside of its surfaces.
+    pub(in super::super) body: Brep,
+    /// Faces that cannot be read.
+    pub(in super::super) unread: Vec<Unread>,
+}
+
+/// A face that cannot be read.
+#[derive(Debug, Clone, Default)]
+pub(in super::super) struct Unread {
+    /// Line where it stands.
+    pub(in super::super) line: Option<usize>,
+    /// How the file calls it.
+    pub(in super::super) name: String,
+    /// The kind of its surface.
+    pub(in super::super) kind: String,
+    /// Why.
+    pub(in super::super) why: String,
 }
 
 /// A curve of a file as points, in the unit of the file.
@@ -49,33 +67,33 @@ pub(super) fn surface(
         faults.add(line, name, "a weight that is not larger than 0".to_owned());
         return None;
     }
-    let made = KnotVector::new(degrees[0], snapped(u))
-        .and_then(|u| Ok((u, KnotVector::new(degrees[1], snapped(v))?)))
-        .and_then(|(u, v)| BsplineSurface::new(u, v, points));
+    let made = BsplineSurface::clamped(degrees, [snapped(u), snapped(v)], points);
     made.map_err(|error| faults.add(line, name, error.to_string())).ok()
 }
 
 /// Parts of a span of the knots of a curve.
 const PARTS: usize = 8;
 
-/// The points of a curve of knots, weights and points, between two of its parameters; none, with a fault, when they do
-/// not fit together.
-pub(super) fn curve(
+/// A curve of knots, weights and points; none, with a fault, when they do not fit together.
+pub(super) fn spline_curve(
     faults: &mut Faults,
     line: usize,
     name: &str,
     degree: usize,
     knots: Vec<f64>,
     net: impl Iterator<Item = (f64, [f64; 3])>,
-    [from, to]: [f64; 2],
-) -> Option<CadCurve> {
+) -> Option<BsplineCurve<4>> {
     let points: Vec<[f64; 4]> = net.map(|(w, [x, y, z])| [w * x, w * y, w * z, w]).collect();
     if !points.iter().all(|point| point[3] > 0.0 && point[3].is_finite()) {
         faults.add(Some(line), name, "a weight that is not larger than 0".to_owned());
         return None;
     }
-    let made = KnotVector::new(degree, snapped(knots)).and_then(|knots| BsplineCurve::new(knots, points));
-    let curve = made.map_err(|error| faults.add(Some(line), name, error.to_string())).ok()?;
+    let made = BsplineCurve::clamped(degree, snapped(knots), points);
+    made.map_err(|error| faults.add(Some(line), name, error.to_string())).ok()
+}
+
+/// The points of a curve between two of its parameters.
+pub(super) fn points_of(line: usize, curve: &BsplineCurve<4>, [from, to]: [f64; 2]) -> CadCurve {
     let (a, b) = curve.knots().domain();
     let [from, to] = if from < to { [from.clamp(a, b), to.clamp(a, b)] } else { [a, b] };
     let breaks = curve.knots().breakpoints();
@@ -85,7 +103,7 @@ pub(super) fn curve(
         let [x, y, z, w] = curve.eval(t);
         [x / w, y / w, z / w]
     });
-    Some(CadCurve { line, points: points.collect() })
+    CadCurve { line, points: points.collect() }
 }
 
 /// Knots that differ by rounding of their text are one.

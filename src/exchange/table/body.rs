@@ -6,6 +6,7 @@
 //! it lies. Half a body is mirrored. Triangles are turned outward, and shells inside others left out. Sections of a table
 //! lie at x = x_a + L (1 - cos(pi k/n))/2, closer at the ends, and their points are thinned to [`THINNED`] of the breadth.
 
+mod cad;
 pub(super) mod frame;
 
 use std::f64::consts::PI;
@@ -22,7 +23,6 @@ use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, tabl
 use super::settings::Settings;
 use super::{ReadTable, TableProblem, sidecar};
 use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
-use crate::spline::BsplineSurface;
 use frame::{AS_WRITTEN, Given, framed};
 
 /// What points of sections that are left out are off by at most, over the breadth.
@@ -33,12 +33,6 @@ const SECTIONS: usize = 40;
 
 /// The first and the last section lie inside the body by this part of its length.
 const INSIDE: f64 = 1e-5;
-
-/// What triangles leave surfaces by at most, over the longest extent of these.
-const DEVIATION: f64 = 1e-5;
-
-/// More triangles than this are made fewer by a deviation that is doubled.
-const ENOUGH: usize = 150_000;
 
 /// Faces and steps at which the subdivision of a net ends.
 const FACES: usize = 60_000;
@@ -128,8 +122,10 @@ pub fn read_body<'a>(
         Shape::Nothing
     });
     // Curves alone are a table.
-    if let Shape::Surfaces(CadSurfaces { surfaces, .. }) = &shape
+    if let Shape::Surfaces(CadSurfaces { surfaces, body, unread, .. }) = &shape
         && surfaces.is_empty()
+        && body.faces.is_empty()
+        && unread.is_empty()
     {
         return None;
     }
@@ -161,36 +157,7 @@ pub fn read_body<'a>(
             framed(meshes.to_vec(), &settings, &given, &mut problems)
         }
         Shape::Nothing => Vec::new(),
-        Shape::Surfaces(CadSurfaces { surfaces, unit, notes, .. }) => {
-            let points = surfaces.iter().map(|surface| surface.points().len()).sum::<usize>();
-            let unit = unit.unwrap_or(1.0);
-            problems.note(format!(
-                "{} surfaces ({kind}) of {points} control points, untrimmed; the unit of the file is {unit} m",
-                surfaces.len()
-            ));
-            notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
-            let size = extent(&surfaces);
-            match TriangleMesh::nested(&surfaces, DEVIATION * size, ENOUGH) {
-                Ok((nested, deviation)) => {
-                    let triangles = nested[1].triangles.len();
-                    problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
-                    framed(nested.to_vec(), &settings, &Given { surfaces: true, ..Given::plain(unit) }, &mut problems)
-                }
-                Err(count) => {
-                    let message = format!(
-                        "the surfaces bend so often that {count} triangles would not follow them, expected at most {}",
-                        4 * ENOUGH
-                    );
-                    problems.error(
-                        "E350",
-                        FilePosition::FILE,
-                        message,
-                        "Give the surfaces of the hull alone, or a mesh",
-                    );
-                    Vec::new()
-                }
-            }
-        }
+        Shape::Surfaces(read) => cad::meshes(read, kind, &settings, &mut problems),
     };
     Some(problems.finish().map(|notes| ReadBody {
         name: settings.name.unwrap_or_default(),
@@ -213,16 +180,6 @@ pub(in super::super) fn body_faults(name: &str, faults: Vec<RecordFault>) -> Vec
     let mut problems = Problems::new(name);
     faulty(faults, &mut problems);
     problems.finish().err().unwrap_or_default()
-}
-
-/// The longest extent of the control points.
-fn extent(surfaces: &[BsplineSurface<4>]) -> f64 {
-    let points = || surfaces.iter().flat_map(|surface| surface.points()).map(|[x, y, z, w]| [x / w, y / w, z / w]);
-    let along = |k: usize| {
-        let least = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-        points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) - least
-    };
-    (0..3).map(along).fold(0.0, f64::max)
 }
 
 /// Lines whose ends are within `slack` of each other as one, the nearest ends first; each end has one mate at most. Of

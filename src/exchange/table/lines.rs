@@ -51,8 +51,8 @@ pub(super) fn read(name: &str, bytes: &[u8], sidecar: &[(&str, &str)]) -> Option
     if !is_iges(bytes) {
         return None;
     }
-    let CadSurfaces { surfaces, unit, curves, notes } = read_iges(bytes).ok()?;
-    if !surfaces.is_empty() || curves.is_empty() {
+    let CadSurfaces { surfaces, unit, curves, notes, body, unread } = read_iges(bytes).ok()?;
+    if !surfaces.is_empty() || !body.faces.is_empty() || !unread.is_empty() || curves.is_empty() {
         return None;
     }
     let mut problems = Problems::new(name);

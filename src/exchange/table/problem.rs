@@ -18,6 +18,7 @@
 //! | E315 | a length that is no ship's |
 //! | E350 | a record of a body that cannot be read |
 //! | E351 | a body of impossible size or axes, or not known to be whole |
+//! | E352 | faces of a body that cannot be read |
 //! | E353 | hydrostatics that no body can have |
 //! | W306 | no profiles of stem and stern |
 //! | W307 | few waterlines below the draught |

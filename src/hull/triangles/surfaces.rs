@@ -20,10 +20,13 @@ const HALVES: usize = 400_000;
 /// How often the deviation is doubled at most.
 const DOUBLINGS: usize = 8;
 
-/// The bends of a surface in each span in u, and in v: the most by which halves of it leave their chords, and the
+/// The bends of a surface, which the points of a grid of parameters give, in each span in u, and in v: the most by which halves of it leave their chords, and the
 /// diagonals of its cells theirs.
-struct Bends<'a> {
-    surface: &'a BsplineSurface<4>,
+pub(in super::super) struct Bends<G> {
+    grid: G,
+    breaks: [Vec<f64>; 2],
+    /// Whether the surface may have a corner at each of the breaks.
+    corners: [Vec<bool>; 2],
     along: [Vec<f64>; 2],
     twist: [Vec<f64>; 2],
 }
@@ -49,16 +52,23 @@ fn off(from: [f64; 3], middle: [f64; 3], to: [f64; 3]) -> f64 {
     length([0, 1, 2].map(|k| middle[k] - 0.5 * (from[k] + to[k])))
 }
 
-impl<'a> Bends<'a> {
-    fn of(surface: &'a BsplineSurface<4>) -> Self {
-        let breaks = [surface.u().breakpoints(), surface.v().breakpoints()];
+/// The breakpoints of knots, and whether there may be a corner.
+fn breaks(knots: &KnotVector) -> Vec<(f64, bool)> {
+    knots.breakpoints().into_iter().map(|t| (t, knots.multiplicity(t) >= knots.degree())).collect()
+}
+
+impl<G: Fn(&[f64], &[f64]) -> Vec<[f64; 3]>> Bends<G> {
+    /// Of a surface that is smooth between breaks.
+    pub(in super::super) fn of(grid: G, breaks: [Vec<(f64, bool)>; 2]) -> Self {
+        let corners = breaks.each_ref().map(|list| list.iter().map(|(_, corner)| *corner).collect());
+        let breaks = breaks.map(|list| list.into_iter().map(|(t, _)| t).collect::<Vec<f64>>());
         let spans = breaks.each_ref().map(|breaks| breaks.len() - 1);
         let parts = match spans[0].saturating_mul(spans[1]) {
             count if count <= QUARTERS => 4,
             count if count <= HALVES => 2,
             _ => 1,
         };
-        let points = grid(surface, &fine(&breaks[0], parts), &fine(&breaks[1], parts));
+        let points = grid(&fine(&breaks[0], parts), &fine(&breaks[1], parts));
         let columns = parts * spans[1] + 1;
         let at = |i: usize, j: usize| points[i * columns + j];
         let mut along = spans.map(|count| vec![0.0_f64; count]);
@@ -99,13 +109,15 @@ impl<'a> Bends<'a> {
                 twist[1][j] = twist[1][j].max(found);
             }
         }
-        Self { surface, along, twist }
+        Self { grid, breaks, corners, along, twist }
     }
 
     /// The lines of a mesh that leaves the surface by about `deviation`, each part cut into `times`.
-    fn lines(&self, deviation: f64, times: usize) -> [Vec<f64>; 2] {
-        let knots = [self.surface.u(), self.surface.v()];
-        [0, 1].map(|axis| cut(knots[axis], &self.along[axis], &self.twist[axis], deviation, times))
+    pub(in super::super) fn lines(&self, deviation: f64, times: usize) -> [Vec<f64>; 2] {
+        [0, 1].map(|axis| {
+            let bends = self.along[axis].iter().copied().zip(self.twist[axis].iter().copied()).collect::<Vec<_>>();
+            cut(&self.breaks[axis], &self.corners[axis], &bends, deviation, times)
+        })
     }
 
     /// Triangles of such a mesh.
@@ -116,7 +128,7 @@ impl<'a> Bends<'a> {
 
     fn triangles(&self, deviation: f64, times: usize, corners: &mut Vec<[[f64; 3]; 3]>) {
         let [us, vs] = self.lines(deviation, times);
-        let points = grid(self.surface, &us, &vs);
+        let points = (self.grid)(&us, &vs);
         let at = |i: usize, j: usize| points[i * vs.len() + j];
         for i in 0..us.len() - 1 {
             for j in 0..vs.len() - 1 {
@@ -132,20 +144,19 @@ impl<'a> Bends<'a> {
 }
 
 /// The lines across one direction.
-fn cut(knots: &KnotVector, along: &[f64], twist: &[f64], deviation: f64, times: usize) -> Vec<f64> {
-    let breaks = knots.breakpoints();
+fn cut(breaks: &[f64], corners: &[bool], bends: &[(f64, f64)], deviation: f64, times: usize) -> Vec<f64> {
     // A half has a quarter of the bend of the whole.
     let count = |bend: f64| (2.0 * (bend / deviation).sqrt()).ceil().clamp(1.0, MOST_PARTS);
     let both = |twist: f64| (twist / deviation).sqrt().sqrt().ceil().clamp(1.0, MOST_PARTS);
-    let parts: Vec<f64> = along.iter().zip(twist).map(|(&bend, &twist)| count(bend).max(both(twist))).collect();
+    let parts: Vec<f64> = bends.iter().map(|&(bend, twist)| count(bend).max(both(twist))).collect();
     let mut lines = vec![breaks[0]];
     let mut span = 0;
     while span < parts.len() {
         let mut end = span + 1;
         // Bends grow with the square of the width, twists with its fourth power when both directions are joined.
-        let (mut bend, mut turn) = (along[span], twist[span]);
-        while parts[span] <= 1.0 && end < parts.len() && knots.multiplicity(breaks[end]) < knots.degree() {
-            (bend, turn) = (bend.max(along[end]), turn.max(twist[end]));
+        let (mut bend, mut turn) = bends[span];
+        while parts[span] <= 1.0 && end < parts.len() && !corners[end] {
+            (bend, turn) = (bend.max(bends[end].0), turn.max(bends[end].1));
             let width = (breaks[end + 1] - breaks[span]) / (breaks[span + 1] - breaks[span]);
             let narrow = (breaks[end + 1] - breaks[end]) / (breaks[span + 1] - breaks[span]);
             let wider = width / narrow.min(1.0);
@@ -162,6 +173,11 @@ fn cut(knots: &KnotVector, along: &[f64], twist: &[f64], deviation: f64, times: 
     lines
 }
 
+/// The bends of a spline.
+fn bends(surface: &BsplineSurface<4>) -> Bends<impl Fn(&[f64], &[f64]) -> Vec<[f64; 3]> + '_> {
+    Bends::of(move |us, vs| grid(surface, us, vs), [breaks(surface.u()), breaks(surface.v())])
+}
+
 impl TriangleMesh {
     /// Triangles over surfaces of (w x, w y, w z, w) \[m\], each for itself, that leave them by at most about
     /// `deviation` \[m\]; `times` as many along and around as that asks for.
@@ -169,7 +185,7 @@ impl TriangleMesh {
     pub fn of_surfaces(surfaces: &[BsplineSurface<4>], deviation: f64, times: usize) -> Self {
         let mut corners = Vec::new();
         for surface in surfaces {
-            Bends::of(surface).triangles(deviation, times.max(1), &mut corners);
+            bends(surface).triangles(deviation, times.max(1), &mut corners);
         }
         Self::from_corners(corners.into_iter())
     }
@@ -180,7 +196,7 @@ impl TriangleMesh {
     /// # Errors
     /// How many triangles there would be, where these are more than four times `enough` even so.
     pub fn nested(surfaces: &[BsplineSurface<4>], deviation: f64, enough: usize) -> Result<([Self; 2], f64), usize> {
-        let bends: Vec<Bends<'_>> = surfaces.iter().map(Bends::of).collect();
+        let bends: Vec<Bends<_>> = surfaces.iter().map(bends).collect();
         let count = |deviation: f64| bends.iter().map(|bends| bends.count(deviation)).fold(0, usize::saturating_add);
         let mut deviation = deviation;
         for _ in 0..DOUBLINGS {

@@ -1,12 +1,13 @@
-//! Reading of IGES: every rational B-spline surface (entity 128) with the transformation (124) of its directory entry.
-//! Entities that trim surfaces or make bodies of them (142, 144, 143, 502 to 514) refer to surfaces that are read
-//! untrimmed; curves are passed over. Of a file without such surfaces the curves (126, and lines, 110) are read.
+//! Reading of IGES: the faces of a file (entities 144, 143, 510, 108) where it has some, and otherwise every rational B-spline
+//! surface (128), with the transformations (124) of their directory entries. Of a file without surfaces the curves
+//! (126, and lines, 110) are read.
 
 use std::collections::BTreeMap;
 
 use super::super::super::fault::{Faults, RecordFault};
-use super::super::surfaces::{CadCurve, CadSurfaces, MOST_POINTS, curve, surface};
-use crate::spline::BsplineSurface;
+use super::super::surfaces::{CadCurve, CadSurfaces, MOST_POINTS, points_of, spline_curve, surface};
+use super::faces::faces;
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
 /// Columns before the letter of a section.
 const LETTER: usize = 72;
@@ -41,15 +42,16 @@ pub(in super::super::super) fn is_iges(bytes: &[u8]) -> bool {
 }
 
 /// An entity of the directory.
-struct Entry {
-    kind: usize,
+pub(super) struct Entry {
+    pub(super) kind: usize,
+    pub(super) form: usize,
     /// First parameter record, and how many.
     pointer: usize,
     count: usize,
     /// Directory number of its transformation, 0 for none.
     transformation: usize,
     /// Line in the file.
-    line: usize,
+    pub(super) line: usize,
 }
 
 /// One parameter of a record.
@@ -145,6 +147,10 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
     };
     let unit = if flag >= 1.0 { UNITS.get(flag as usize - 1).copied().unwrap_or(f64::NAN) } else { UNITS[0] };
     let unit = if unit.is_finite() { unit } else { named };
+    if !unit.is_finite() {
+        let message = format!("the unit of length is flag {flag}, no name of a unit that is known");
+        faults.add(None, "G section", message);
+    }
     read.unit = unit.is_finite().then_some(unit);
     let directory = entries(of(b'D'), &mut faults);
     let body = of(b'P');
@@ -166,6 +172,14 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
         let transformation = directory.get(&entry.transformation).filter(|_| entry.transformation > 0);
         (list_of(entry, usize::MAX), transformation.map(|entry| numbers(&list_of(entry, MATRIX))))
     };
+    let plain = |entry: &Entry| {
+        let (list, place) = of_entry(entry);
+        (numbers(&list), place)
+    };
+    (read.body, read.unread) = faces(&directory, &plain, &mut faults);
+    if !read.body.faces.is_empty() || !read.unread.is_empty() {
+        return faults.or(|| read);
+    }
     for (name, entry) in &directory {
         if entry.kind != 128 {
             if !SILENT.contains(&entry.kind) && entry.kind < 500 {
@@ -175,7 +189,8 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
         }
         let (list, place) = of_entry(entry);
         let title = format!("entity 128, D{name}");
-        if let Some(found) = entity_128(&mut faults, entry.line, &title, &list, place.as_deref(), &mut points) {
+        if let Some(found) = entity_128(&mut faults, entry.line, &title, &numbers(&list), place.as_deref(), &mut points)
+        {
             read.surfaces.push(found);
         }
         if faults.is_full() {
@@ -215,19 +230,6 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
             if found.is_empty() { String::new() } else { format!("; the file has entities {}", found.join(", ")) };
         faults.add(None, "", format!("no B-spline surfaces (entity 128) and no curves (126){there}"));
     }
-    // 143, and 144 (surface, 1 where its outer edge is not that of the surface, number of inner edges, ...).
-    let cuts = |entry: &Entry| match numbers(&list_of(entry, 2))[..] {
-        [_, _, outer, inner, ..] => outer > 0.0 || inner > 0.0,
-        _ => false,
-    };
-    let trims = |entry: &&Entry| entry.kind == 143 || (entry.kind == 144 && cuts(entry));
-    let trimmed = directory.values().filter(trims).count();
-    if trimmed > 0 && !read.surfaces.is_empty() {
-        read.notes.push(format!(
-            "{trimmed} trimmed surfaces (entities 143, 144) are read untrimmed: what their curves cut away counts as part of the body; \
-             export without trimming, or as a mesh, where they reach beyond their neighbours"
-        ));
-    }
     for (kind, count) in others {
         read.notes.push(format!("{count} entities {kind} are not read"));
     }
@@ -246,6 +248,7 @@ fn entries(lines: &[(usize, &[u8])], faults: &mut Faults) -> BTreeMap<usize, Ent
             kind: column(first, 1),
             pointer: column(first, 2),
             count: column(second, 4),
+            form: column(second, 5),
             transformation: column(first, 7),
             line: *row,
         };
@@ -280,7 +283,7 @@ fn entity_110(faults: &mut Faults, line: usize, name: &str, list: &[f64], place:
     None
 }
 
-/// A rational B-spline curve of its parameters.
+/// The points of a rational B-spline curve of its parameters.
 fn entity_126(
     faults: &mut Faults,
     line: usize,
@@ -289,6 +292,19 @@ fn entity_126(
     place: Option<&[f64]>,
     points: &mut usize,
 ) -> Option<CadCurve> {
+    let (found, ends) = spline_126(faults, line, name, list, place, points)?;
+    Some(points_of(line, &found, ends))
+}
+
+/// A rational B-spline curve of its parameters, and between which of its own it lies.
+pub(super) fn spline_126(
+    faults: &mut Faults,
+    line: usize,
+    name: &str,
+    list: &[f64],
+    place: Option<&[f64]>,
+    points: &mut usize,
+) -> Option<(BsplineCurve<4>, [f64; 2])> {
     let whole = |k: usize| list.get(k).copied().filter(|v| v.fract().abs() <= 0.0 && (0.0..=1e5).contains(v));
     let (Some(upper), Some(degree)) = (whole(1), whole(2)) else {
         faults.add(Some(line), name, "parameters 1 and 2, expected whole numbers up to 100000".to_owned());
@@ -304,19 +320,23 @@ fn entity_126(
     }
     let of = |k: usize| (list[weights + k], moved(place, [0, 1, 2].map(|axis| list[net + 3 * k + axis])));
     let end = |k: usize| list.get(net + 3 * count + k).copied().unwrap_or(0.0);
-    curve(faults, line, name, degree, list[knots..weights].to_vec(), (0..count).map(of), [end(0), end(1)])
+    let found = spline_curve(faults, line, name, degree, list[knots..weights].to_vec(), (0..count).map(of))?;
+    let (a, b) = found.knots().domain();
+    let ends = [end(0), end(1)];
+    // Without two ends it is the whole of it.
+    let ends = if ends[0] < ends[1] { ends.map(|t| t.clamp(a, b)) } else { [a, b] };
+    Some((found, ends))
 }
 
 /// A rational B-spline surface of its parameters; points run with u fastest.
-fn entity_128(
+pub(super) fn entity_128(
     faults: &mut Faults,
     line: usize,
     name: &str,
-    list: &[Parameter],
+    list: &[f64],
     place: Option<&[f64]>,
     points: &mut usize,
 ) -> Option<BsplineSurface<4>> {
-    let list = numbers(list);
     let mut whole = |k: usize, most: usize| {
         let value = list.get(k).copied().unwrap_or(f64::NAN);
         let fits = value >= 0.0 && value.fract() <= 0.0 && value <= most as f64;
@@ -344,5 +364,14 @@ fn entity_128(
     let of = |k: usize| (list[weights + k], moved(place, [0, 1, 2].map(|axis| list[net + 3 * k + axis])));
     let order = (0..rows).flat_map(|i| (0..columns).map(move |j| j * rows + i));
     let knots = [list[u..v].to_vec(), list[v..weights].to_vec()];
-    surface(faults, Some(line), name, [m1, m2], knots, order.map(of))
+    let found = surface(faults, Some(line), name, [m1, m2], knots, order.map(of))?;
+    // What of it is meant.
+    let end = |k: usize| list.get(net + 3 * count + k).copied().unwrap_or(0.0);
+    let part = |knots: &KnotVector, [from, to]: [f64; 2]| {
+        let (a, b) = knots.domain();
+        let (from, to) = (from.max(a), to.min(b));
+        if to - from > 1e-9 * (b - a) { [from, to] } else { [a, b] }
+    };
+    let (us, vs) = (part(found.u(), [end(0), end(1)]), part(found.v(), [end(2), end(3)]));
+    found.part(us, vs).ok().or(Some(found))
 }

@@ -1,11 +1,12 @@
-//! Reading of STEP (ISO 10303-21): every B_SPLINE_SURFACE_WITH_KNOTS of the data section, rational or not, untrimmed,
-//! in the length unit of the file. Placements of assemblies are not applied, and a note says where there are some.
+//! Reading of STEP (ISO 10303-21): the faces of the data section where it has some, and otherwise every B-spline surface, in the
+//! length unit of the file.
 
 use std::collections::BTreeMap;
 
 use super::super::super::fault::{Faults, RecordFault};
-use super::super::surfaces::{CadSurfaces, MOST_POINTS, surface};
-use crate::spline::{BsplineSurface, MAX_DEGREE};
+use super::super::surfaces::CadSurfaces;
+use super::faces::faces;
+use super::geometry::Geometry;
 
 /// Prefixes of the metre, and none.
 const PREFIXES: [(&str, f64); 8] = [
@@ -19,6 +20,17 @@ const PREFIXES: [(&str, f64); 8] = [
     (".KILO.", 1e3),
 ];
 
+/// Surfaces that have no ends without a face.
+const OTHERS: [&str; 7] = [
+    "CYLINDRICAL_SURFACE",
+    "CONICAL_SURFACE",
+    "SPHERICAL_SURFACE",
+    "TOROIDAL_SURFACE",
+    "SURFACE_OF_REVOLUTION",
+    "SURFACE_OF_LINEAR_EXTRUSION",
+    "PLANE",
+];
+
 /// Lists in lists, at most.
 const DEEPEST: usize = 16;
 
@@ -30,7 +42,7 @@ pub(in super::super::super) fn is_step(bytes: &[u8]) -> bool {
 
 /// A parameter of an instance.
 #[derive(Debug, Clone)]
-enum Value {
+pub(super) enum Value {
     Number(f64),
     Text,
     Reference(u64),
@@ -42,13 +54,20 @@ enum Value {
 }
 
 /// An instance: its parts by keyword, and its line.
-struct Instance {
-    parts: Vec<(String, Vec<Value>)>,
-    line: usize,
+pub(super) struct Instance {
+    pub(super) parts: Vec<(String, Vec<Value>)>,
+    pub(super) line: usize,
 }
 
 impl Instance {
-    fn part(&self, keyword: &str) -> Option<&[Value]> {
+    /// Its keyword; of several that which says most.
+    pub(super) fn kind(&self) -> String {
+        let names = || self.parts.iter().map(|(name, _)| name);
+        let with_knots = names().find(|name| name.ends_with("WITH_KNOTS"));
+        with_knots.or_else(|| names().max_by_key(|name| name.len())).cloned().unwrap_or_default()
+    }
+
+    pub(super) fn part(&self, keyword: &str) -> Option<&[Value]> {
         self.parts.iter().find(|(name, _)| name == keyword).map(|(_, values)| values.as_slice())
     }
 }
@@ -248,40 +267,56 @@ pub(in super::super::super) fn read_step(bytes: &[u8]) -> Result<CadSurfaces, Ve
         }
     }
     let mut read = CadSurfaces { unit: unit(&instances, &mut faults), ..CadSurfaces::default() };
-    let mut points = 0;
-    for (number, instance) in instances.iter().filter(|(_, i)| i.part("B_SPLINE_SURFACE_WITH_KNOTS").is_some()) {
-        let name = format!("#{number}");
-        match b_spline(&mut faults, &name, instance, &instances, &mut points) {
-            Some(found) => read.surfaces.push(found),
-            None => faults.add(Some(instance.line), &name, "not a B-spline surface that can be used".to_owned()),
-        }
-        if faults.is_full() {
-            break;
-        }
+    let radian = radian(&instances);
+    let mut geometry = Geometry { instances: &instances, faults: &mut faults, radian, points: 0 };
+    (read.body, read.unread) = faces(&mut geometry);
+    if read.body.faces.is_empty() && read.unread.is_empty() {
+        loose_surfaces(&mut geometry, &mut read);
     }
-    let placed = instances.values().filter(|i| i.part("ITEM_DEFINED_TRANSFORMATION").is_some()).count();
-    if placed > 0 {
-        read.notes.push(format!("{placed} placements of an assembly are not applied"));
-    }
-    let others = [
-        "CYLINDRICAL_SURFACE",
-        "CONICAL_SURFACE",
-        "SPHERICAL_SURFACE",
-        "TOROIDAL_SURFACE",
-        "SURFACE_OF_REVOLUTION",
-        "SURFACE_OF_LINEAR_EXTRUSION",
-        "PLANE",
-    ];
-    for other in others {
-        let count = instances.values().filter(|i| i.part(other).is_some()).count();
-        if count > 0 {
-            read.notes.push(format!("{count} {other} are not read"));
-        }
-    }
-    if read.surfaces.is_empty() && faults.list.is_empty() {
-        faults.add(None, "", "no B_SPLINE_SURFACE_WITH_KNOTS".to_owned());
+    if read.surfaces.is_empty() && read.body.faces.is_empty() && read.unread.is_empty() && faults.list.is_empty() {
+        faults.add(None, "", "no faces, and no B_SPLINE_SURFACE_WITH_KNOTS".to_owned());
     }
     faults.or(|| read)
+}
+
+/// The splines of a file without faces.
+fn loose_surfaces(geometry: &mut Geometry<'_>, read: &mut CadSurfaces) {
+    let instances = geometry.instances;
+    let is_spline = |i: &Instance| i.kind().contains("B_SPLINE_SURFACE") || i.part("BEZIER_SURFACE").is_some();
+    for (&number, instance) in instances.iter().filter(|(_, i)| is_spline(i)) {
+        match geometry.spline_surface(number) {
+            Some(found) => read.surfaces.push(found),
+            None => {
+                let message = "not a B-spline surface that can be used".to_owned();
+                geometry.faults.add(Some(instance.line), &format!("#{number}"), message);
+            }
+        }
+        if geometry.faults.is_full() {
+            return;
+        }
+    }
+    for other in OTHERS {
+        let count = instances.values().filter(|i| i.part(other).is_some()).count();
+        if count > 0 {
+            read.notes.push(format!("{count} {other} of no face are not read"));
+        }
+    }
+}
+
+/// Radians in the unit of plane angles of a file.
+fn radian(instances: &BTreeMap<u64, Instance>) -> f64 {
+    let of = |instance: &Instance| {
+        let [_, Value::Reference(measure)] = instance.part("CONVERSION_BASED_UNIT")? else { return None };
+        let [value, ..] = instances.get(measure)?.part("PLANE_ANGLE_MEASURE_WITH_UNIT")? else { return None };
+        match value {
+            Value::Typed(list) => {
+                list.first().and_then(|value| if let Value::Number(n) = value { Some(*n) } else { None })
+            }
+            Value::Number(number) => Some(*number),
+            _ => None,
+        }
+    };
+    instances.values().filter(|i| i.part("PLANE_ANGLE_UNIT").is_some()).find_map(of).unwrap_or(1.0)
 }
 
 /// Metres in the length unit of a file; none where it states none, or one that is not known: a fault.
@@ -314,66 +349,16 @@ fn unit(instances: &BTreeMap<u64, Instance>, faults: &mut Faults) -> Option<f64>
     found
 }
 
-fn numbers(value: &Value) -> Option<Vec<f64>> {
+/// The numbers of a list.
+pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
     let Value::List(list) = value else { return None };
     list.iter().map(|v| if let Value::Number(number) = v { Some(*number) } else { None }).collect()
 }
 
-fn whole(value: &Value, most: usize) -> Option<usize> {
+/// A whole number from 0 up to one.
+pub(super) fn whole(value: &Value, most: usize) -> Option<usize> {
     match value {
         Value::Number(n) if *n >= 0.0 && *n <= most as f64 && n.fract() <= 0.0 => Some(*n as usize),
         _ => None,
     }
-}
-
-/// Knots with their multiplicities as one sequence.
-fn knots(multiplicities: &Value, values: &Value) -> Option<Vec<f64>> {
-    let (times, values) = (numbers(multiplicities)?, numbers(values)?);
-    let fits = times.len() == values.len() && times.iter().all(|&t| (1.0..=MAX_DEGREE as f64 + 1.0).contains(&t));
-    fits.then(|| times.iter().zip(&values).flat_map(|(&t, &value)| std::iter::repeat_n(value, t as usize)).collect())
-}
-
-/// The surface of an instance.
-fn b_spline(
-    faults: &mut Faults,
-    name: &str,
-    instance: &Instance,
-    instances: &BTreeMap<u64, Instance>,
-    total: &mut usize,
-) -> Option<BsplineSurface<4>> {
-    let with_knots = instance.part("B_SPLINE_SURFACE_WITH_KNOTS")?;
-    // Alone it has a name first; among others its own parameters only.
-    let (form, own) = match instance.part("B_SPLINE_SURFACE") {
-        Some(form) => (form, with_knots),
-        None => (with_knots.get(1..8)?, with_knots.get(8..)?),
-    };
-    let [u_degree, v_degree, Value::List(rows), ..] = form else { return None };
-    let [u_times, v_times, u_knots, v_knots, ..] = own else { return None };
-    let degrees = [whole(u_degree, 100)?, whole(v_degree, 100)?];
-    let mut net = Vec::new();
-    for row in rows {
-        let Value::List(row) = row else { return None };
-        for value in row {
-            let Value::Reference(point) = value else { return None };
-            let [_, coordinates, ..] = instances.get(point)?.part("CARTESIAN_POINT")? else { return None };
-            let [x, y, z] = numbers(coordinates)?[..] else { return None };
-            net.push([x, y, z]);
-        }
-    }
-    *total += net.len();
-    if *total > MOST_POINTS {
-        faults.add(Some(instance.line), name, format!("more than {MOST_POINTS} control points"));
-        return None;
-    }
-    let weights = match instance.part("RATIONAL_B_SPLINE_SURFACE") {
-        Some([Value::List(rows), ..]) => {
-            rows.iter().map(numbers).collect::<Option<Vec<_>>>()?.into_iter().flatten().collect()
-        }
-        _ => vec![1.0; net.len()],
-    };
-    if weights.len() != net.len() {
-        return None;
-    }
-    let knots = [knots(u_times, u_knots)?, knots(v_times, v_knots)?];
-    surface(faults, Some(instance.line), name, degrees, knots, weights.into_iter().zip(net))
 }

@@ -106,7 +106,7 @@ pub(in super::super) fn framed(
             problems.note(format!("{} turned outward", counted(turned, "triangle")));
         }
         if !surfaces {
-            *mesh = without_inner(mesh, problems);
+            *mesh = without_inner(mesh, if k == 0 { Some(&mut *problems) } else { None });
         }
     }
     let Some([least, greatest]) = meshes[0].bounds() else { return meshes };
@@ -149,9 +149,10 @@ pub(in super::super) fn framed(
     meshes
 }
 
-/// A mesh without the shells inside others.
-fn without_inner(mesh: &mut TriangleMesh, problems: &mut Problems) -> TriangleMesh {
+/// A mesh without the shells inside others; of nested meshes the first alone has problems to say.
+fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> TriangleMesh {
     let (mesh, InnerShells { inside, crossing }) = std::mem::take(mesh).without_inner_shells();
+    let Some(problems) = problems else { return mesh };
     if inside > 0 {
         let message = format!(
             "{} of shells inside the others left out: tanks, decks and bulkheads add nothing to the body",

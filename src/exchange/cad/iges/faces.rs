@@ -1,0 +1,274 @@
+//! The faces of an IGES file: trimmed and bounded surfaces (entities 144, 143), faces of solids (510), and bounded planes (108).
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::super::fault::Faults;
+use super::super::surfaces::Unread;
+use super::geometry::{Geometry, Piece};
+use super::read::Entry;
+use crate::hull::{Brep, BrepEdge, BrepFace, FaceSurface, SpaceCurve};
+
+/// Points of a curve in the parameters of a surface, a span.
+const SAMPLES: usize = 32;
+
+/// The parameters of an entity, and those of its transformation.
+pub(super) type Lists<'a> = &'a dyn Fn(&Entry) -> (Vec<f64>, Option<Vec<f64>>);
+
+/// Loops of a face, edge by edge and with their directions.
+type Loops = Vec<Vec<(usize, bool)>>;
+
+struct FaceReader<'a> {
+    geometry: Geometry<'a>,
+    body: Brep,
+    unread: Vec<Unread>,
+    /// Surfaces that faces refer to.
+    used: BTreeSet<usize>,
+    /// Edges of lists (504), by list and number.
+    edges: BTreeMap<(usize, usize), usize>,
+    /// Vertices of lists (502), by list and number.
+    vertices: BTreeMap<(usize, usize), usize>,
+}
+
+/// Reads the faces of a file; those that cannot be read are listed.
+pub(super) fn faces(directory: &BTreeMap<usize, Entry>, lists: Lists<'_>, faults: &mut Faults) -> (Brep, Vec<Unread>) {
+    let geometry = Geometry { directory, lists, faults, points: 0 };
+    let (edges, vertices) = (BTreeMap::new(), BTreeMap::new());
+    let mut reader =
+        FaceReader { geometry, body: Brep::default(), unread: Vec::new(), used: BTreeSet::new(), edges, vertices };
+    for (&number, entry) in directory {
+        let (list, _) = match entry.kind {
+            143 | 144 | 510 => lists(entry),
+            108 if entry.form == 1 => lists(entry),
+            _ => continue,
+        };
+        reader.face(number, entry, &list);
+    }
+    if !reader.body.faces.is_empty() || !reader.unread.is_empty() {
+        reader.whole_surfaces();
+    }
+    (reader.body, reader.unread)
+}
+
+/// A pointer of a list.
+fn pointer(list: &[f64], k: usize) -> usize {
+    list.get(k).copied().filter(|v| (0.0..1e9).contains(v)).unwrap_or(0.0) as usize
+}
+
+impl FaceReader<'_> {
+    fn face(&mut self, number: usize, entry: &Entry, list: &[f64]) {
+        let support = match entry.kind {
+            143 => pointer(list, 2),
+            108 => number,
+            _ => pointer(list, 1),
+        };
+        self.used.insert(support);
+        let name = format!("entity {}, D{number}", entry.kind);
+        let kind = self.geometry.directory.get(&support).map_or(0, |entry| entry.kind);
+        let read = self.geometry.surface(support, 0).ok_or("its surface").and_then(|surface| {
+            let loops = match entry.kind {
+                144 => self.trimmed(list, &surface),
+                143 => self.bounded(list, &surface),
+                510 => self.of_solid(list),
+                _ => self.pieces(pointer(list, 5)).map(|pieces| vec![self.ring(pieces)]),
+            };
+            Ok((surface, loops.ok_or("its edges")?))
+        });
+        self.push(read, (name, number), kind, entry.line);
+    }
+
+    fn push(
+        &mut self,
+        read: Result<(FaceSurface, Loops), &'static str>,
+        (name, part): (String, usize),
+        kind: usize,
+        line: usize,
+    ) {
+        let kind = format!("of entity {kind}");
+        match read {
+            Ok((surface, loops)) => self.body.faces.push(BrepFace { name, kind, surface, loops, left: None, part }),
+            Err(why) => {
+                self.unread.push(Unread { line: Some(line), name, kind, why: format!("{why} cannot be read") });
+            }
+        }
+    }
+
+    /// The surfaces that no face refers to, whole.
+    fn whole_surfaces(&mut self) {
+        let directory = self.geometry.directory;
+        let bases: Vec<usize> = directory
+            .values()
+            .filter(|entry| entry.kind == 140)
+            .map(|entry| pointer(&(self.geometry.lists)(entry).0, 5))
+            .collect();
+        self.used.extend(bases);
+        for (&number, entry) in
+            directory.iter().filter(|(_, entry)| matches!(entry.kind, 114 | 118 | 120 | 122 | 128 | 140))
+        {
+            if self.used.contains(&number) {
+                continue;
+            }
+            let name = format!("entity {}, D{number}", entry.kind);
+            let read = self.geometry.surface(number, 0).ok_or("its surface").and_then(|surface| {
+                let ends = self.geometry.ends(number, &surface).ok_or("its edges")?;
+                let ring = self.around(&surface, ends).ok_or("its edges")?;
+                Ok((surface, vec![ring]))
+            });
+            self.push(read, (name, number), entry.kind, entry.line);
+        }
+    }
+
+    /// The four sides of a surface.
+    fn around(&mut self, surface: &FaceSurface, [[a, b], [c, d]]: [[f64; 2]; 2]) -> Option<Vec<(usize, bool)>> {
+        let sides = [(1, c, [a, b]), (0, b, [c, d]), (1, d, [b, a]), (0, a, [d, c])];
+        let pieces: Option<Vec<Piece>> =
+            sides.into_iter().map(|(axis, at, ends)| surface.side(axis, at, ends)).collect();
+        Some(self.ring(pieces?))
+    }
+
+    fn trimmed(&mut self, list: &[f64], surface: &FaceSurface) -> Option<Loops> {
+        let (outer, inner) = (pointer(list, 2), pointer(list, 3));
+        let mut loops = Vec::new();
+        if outer == 0 {
+            let ends = self.geometry.ends(pointer(list, 1), surface)?;
+            loops.push(self.around(surface, ends)?);
+        } else {
+            loops.push(self.on_surface(pointer(list, 4), surface)?);
+        }
+        for k in 0..inner.min(list.len()) {
+            loops.push(self.on_surface(pointer(list, 5 + k), surface)?);
+        }
+        Some(loops)
+    }
+
+    fn bounded(&mut self, list: &[f64], surface: &FaceSurface) -> Option<Loops> {
+        let count = pointer(list, 3).min(list.len());
+        (0..count).map(|k| self.boundary(pointer(list, 4 + k), surface)).collect()
+    }
+
+    /// A boundary (141): curves in turn.
+    fn boundary(&mut self, number: usize, surface: &FaceSurface) -> Option<Vec<(usize, bool)>> {
+        let (entry, list, _) = self.geometry.entity(number)?;
+        if entry.kind != 141 {
+            return None;
+        }
+        let (count, mut at) = (pointer(&list, 4), 5);
+        let mut pieces = Vec::new();
+        for _ in 0..count.min(list.len()) {
+            let curve = pointer(&list, at);
+            let own = pointer(&list, at + 2);
+            let found = self.pieces(curve).or_else(|| {
+                let own: Option<Vec<Vec<Piece>>> =
+                    (0..own).map(|k| self.geometry.mapped(pointer(&list, at + 3 + k), surface, SAMPLES)).collect();
+                own.map(|all| all.into_iter().flatten().collect())
+            })?;
+            let backward = pointer(&list, at + 1) == 2;
+            pieces.extend(if backward {
+                found.into_iter().rev().map(|(curve, [a, b])| (curve, [b, a])).collect::<Vec<Piece>>()
+            } else {
+                found
+            });
+            at += 3 + own;
+        }
+        Some(self.ring(pieces))
+    }
+
+    /// A curve on a surface (142), in space where it is given there, and otherwise by its parameters.
+    fn on_surface(&mut self, number: usize, surface: &FaceSurface) -> Option<Vec<(usize, bool)>> {
+        let (entry, list, _) = self.geometry.entity(number)?;
+        let pieces = if entry.kind == 142 {
+            self.pieces(pointer(&list, 4)).or_else(|| self.geometry.mapped(pointer(&list, 3), surface, SAMPLES))?
+        } else {
+            self.pieces(number)?
+        };
+        Some(self.ring(pieces))
+    }
+
+    fn pieces(&mut self, number: usize) -> Option<Vec<Piece>> {
+        self.geometry.pieces(number, 0)
+    }
+
+    /// The loops of a face of a solid (508), whose edges stand in lists (504).
+    fn of_solid(&mut self, list: &[f64]) -> Option<Loops> {
+        let count = pointer(list, 2).min(list.len());
+        let mut loops = Vec::new();
+        for k in 0..count {
+            let (entry, ring, _) = self.geometry.entity(pointer(list, 4 + k))?;
+            if entry.kind != 508 {
+                return None;
+            }
+            let (number, mut at) = (pointer(&ring, 1).min(ring.len()), 2);
+            let mut edges = Vec::new();
+            for _ in 0..number {
+                if pointer(&ring, at) == 0 {
+                    let edge = self.listed(pointer(&ring, at + 1), pointer(&ring, at + 2))?;
+                    edges.push((edge, pointer(&ring, at + 3) != 0));
+                }
+                at += 5 + 2 * pointer(&ring, at + 4).min(ring.len());
+            }
+            loops.push(edges);
+        }
+        Some(loops)
+    }
+
+    fn listed(&mut self, number: usize, index: usize) -> Option<usize> {
+        if let Some(&known) = self.edges.get(&(number, index)) {
+            return Some(known);
+        }
+        let (entry, list, _) = self.geometry.entity(number)?;
+        if entry.kind != 504 || index == 0 || index > pointer(&list, 1) {
+            return None;
+        }
+        let at = 2 + 5 * (index - 1);
+        let ends = [
+            self.vertex(pointer(&list, at + 1), pointer(&list, at + 2))?,
+            self.vertex(pointer(&list, at + 3), pointer(&list, at + 4))?,
+        ];
+        let mut pieces = self.pieces(pointer(&list, at))?;
+        let (Some((curve, range)), true) = (pieces.pop(), pieces.is_empty()) else { return None };
+        self.body.edges.push(BrepEdge { ends, curve, range });
+        self.edges.insert((number, index), self.body.edges.len() - 1);
+        Some(self.body.edges.len() - 1)
+    }
+
+    fn vertex(&mut self, number: usize, index: usize) -> Option<usize> {
+        if let Some(&known) = self.vertices.get(&(number, index)) {
+            return Some(known);
+        }
+        let (entry, list, motion) = self.geometry.entity(number)?;
+        let at = 2 + 3 * index.checked_sub(1)?;
+        let &[x, y, z] = list.get(at..at + 3)? else { return None };
+        if entry.kind != 502 || !(x + y + z).is_finite() {
+            return None;
+        }
+        self.body.vertices.push(motion.point([x, y, z]));
+        self.vertices.insert((number, index), self.body.vertices.len() - 1);
+        Some(self.body.vertices.len() - 1)
+    }
+
+    /// Curves end to end as edges, each turned to where the one before it ends.
+    fn ring(&mut self, pieces: Vec<Piece>) -> Vec<(usize, bool)> {
+        let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>();
+        let ends: Vec<[[f64; 3]; 2]> =
+            pieces.iter().map(|(curve, range): &(SpaceCurve, [f64; 2])| range.map(|t| curve.point(t))).collect();
+        let mut forward: Vec<bool> = Vec::with_capacity(ends.len());
+        for (k, &[from, to]) in ends.iter().enumerate() {
+            let along = match (k.checked_sub(1), ends.get(1)) {
+                (Some(before), _) => {
+                    let last = ends[before][usize::from(forward[before])];
+                    apart(last, from) <= apart(last, to)
+                }
+                (None, Some(&[a, b])) => apart(to, a).min(apart(to, b)) <= apart(from, a).min(apart(from, b)),
+                (None, None) => true,
+            };
+            forward.push(along);
+        }
+        let mut list = Vec::with_capacity(pieces.len());
+        for (((curve, range), [from, to]), along) in pieces.into_iter().zip(ends).zip(forward) {
+            let first = self.body.vertices.len();
+            self.body.vertices.extend([from, to]);
+            self.body.edges.push(BrepEdge { ends: [first, first + 1], curve, range });
+            list.push((self.body.edges.len() - 1, along));
+        }
+        list
+    }
+}
