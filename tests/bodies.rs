@@ -317,13 +317,22 @@ fn units_and_axes_of_cad_files() {
     close(volume("a", &milli, "[table]\nunits = 'm'\n"), 20_000.0);
     let said = close(volume("a", &step, "[table]\naxes = '-x y z'\nx_origin = 100\n"), 20_000.0);
     assert!(!said.contains("W320"), "{said}");
+    // Without faces the splines are whole, and what has no ends is left out.
+    let loose = other_kind(&step).replace("ADVANCED_FACE", "NO_FACE");
+    let said = close(volume("a", &loose, ""), 20_000.0);
+    assert!(said.contains("W352") && said.contains("1 CYLINDRICAL_SURFACE of no face are not read"), "{said}");
     // A surface of no face is construction; a face without a surface that is read is missing.
-    let other = step.replace("DATA;\n", "DATA;\n#9001=CYLINDRICAL_SURFACE('',#1,1.);\n");
-    assert_ne!(other, step);
-    close(volume("a", &other, ""), 20_000.0);
+    close(volume("a", &other_kind(&step), ""), 20_000.0);
     let missing = step.replace("DATA;\n", "DATA;\n#9002=ADVANCED_FACE('',(),#1,.T.);\n");
     let found = volume("a", &missing, "").unwrap_err();
     assert!(found.contains("E352") && found.contains("1 of 7 faces cannot be read"), "{found}");
+}
+
+/// The file with a cylinder that belongs to no face.
+fn other_kind(step: &str) -> String {
+    let other = step.replace("DATA;\n", "DATA;\n#9001=CYLINDRICAL_SURFACE('',#1,1.);\n");
+    assert_ne!(other, step);
+    other
 }
 
 #[test]

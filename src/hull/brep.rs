@@ -282,10 +282,12 @@ impl Brep {
             }
             deviation *= 2.0;
         }
-        sewn.mesh(deviation, usize::MAX).unwrap_or_else(|| BrepMesh {
+        let too_many =
+            |face: usize| FaceFault { face, why: "it bends so often that too many triangles would follow it" };
+        sewn.mesh(deviation, 4 * enough).unwrap_or_else(|| BrepMesh {
             meshes: [TriangleMesh::default(), TriangleMesh::default()],
             deviation,
-            faults: Vec::new(),
+            faults: (0..self.faces.len()).map(too_many).collect(),
         })
     }
 
@@ -294,6 +296,10 @@ impl Brep {
         let size = self.size();
         let charts: Vec<Chart<'_>> = self.faces.iter().map(|face| Chart::new(&face.surface, size)).collect();
         let mut sites: Vec<Vec<f64>> = self.edges.iter().map(|edge| sites(edge, deviation)).collect();
+        let count = |sites: &[Vec<f64>]| sites.iter().map(Vec::len).fold(0, usize::saturating_add);
+        if count(&sites) > enough {
+            return None;
+        }
         let mut samples = Samples::of(&self.vertices, &self.edges, &sites);
         let mut lines = Vec::with_capacity(charts.len());
         let mut parts: Vec<Vec<usize>> = sites.iter().map(|sites| vec![1; sites.len() - 1]).collect();
@@ -316,6 +322,9 @@ impl Brep {
                 sites.extend((0..count).map(|k| w[0] + (w[1] - w[0]) * k as f64 / count as f64));
             }
             sites.extend(old.last());
+        }
+        if count(&sites) > enough {
+            return None;
         }
         let mut samples = Samples::of(&self.vertices, &self.edges, &sites);
         let (mut coarse, mut fine, mut faults) = (Vec::new(), Vec::new(), Vec::new());

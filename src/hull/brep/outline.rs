@@ -143,7 +143,7 @@ fn seam(
 /// Cells of a grid across which a line leads, at least 1.
 fn cells(lines: &[Vec<f64>; 2], a: [f64; 2], b: [f64; 2]) -> usize {
     let across = |k: usize| (place(&lines[k], a[k]) - place(&lines[k], b[k])).abs();
-    (across(0).max(across(1)) - 1e-6).ceil().clamp(1.0, 10_000.0) as usize
+    (across(0).max(across(1)) - 1e-6).ceil().clamp(1.0, 100.0) as usize
 }
 
 /// A parameter counted in the cells of its lines.
@@ -189,7 +189,8 @@ fn trace(
         let k = (start + step) % points.len();
         let (id, part) = points[k];
         let mut found = chart.preimage(samples.points[id], Some(near));
-        if found.distance > off {
+        let lies = found.distance <= off;
+        if !lies {
             return Err("its loops do not lie on its surface");
         }
         if found.free.is_some() {
@@ -244,7 +245,7 @@ fn turned(edges: &[(usize, bool)], chart: &Chart<'_>, samples: &Samples, off: f6
     (1..1_usize << closed.len()).find_map(|choice| {
         let mut list = edges.to_vec();
         for (bit, &k) in closed.iter().enumerate() {
-            list[k].1 ^= choice >> bit & 1 == 1;
+            list[k].1 ^= (choice >> bit) & 1 == 1;
         }
         trace(&list, None, chart, samples, off).ok().filter(|found| found.winding == [0, 0])
     })
@@ -269,10 +270,7 @@ fn unwound(
     let joined = match (turns.as_slice(), lists.next(), lists.next()) {
         (&[turn], Some(corners), None) if turn.abs() == 1 => {
             let rises = (turn > 0) == (axis == 0);
-            let upward = match left {
-                Some(left) => Some(rises == left),
-                None => None,
-            };
+            let upward = left.map(|left| rises == left);
             let level = corners[0].uv[other];
             let nearest = chart
                 .poles(axis)

@@ -43,7 +43,8 @@ pub(super) fn faces(directory: &BTreeMap<usize, Entry>, lists: Lists<'_>, faults
         };
         reader.face(number, entry, &list);
     }
-    if !reader.body.faces.is_empty() || !reader.unread.is_empty() {
+    let bounded = directory.values().any(|entry| matches!(entry.kind, 118 | 120 | 122 | 140));
+    if bounded || !reader.body.faces.is_empty() || !reader.unread.is_empty() {
         reader.whole_surfaces();
     }
     (reader.body, reader.unread)

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use super::super::super::fault::Faults;
+use super::super::surfaces::MOST_POINTS;
 use super::faces::Lists;
 use super::read::{Entry, entity_128, spline_126};
 use crate::hull::{Conic, FaceSurface, Motion, SpaceCurve, frame};
@@ -57,7 +58,9 @@ impl<'a> Geometry<'a> {
     /// The curves that a curve is made of.
     pub(super) fn pieces(&mut self, number: usize, depth: usize) -> Option<Vec<Piece>> {
         let (entry, list, motion) = self.entity(number)?;
-        if depth > DEEPEST {
+        // Composites of composites end somewhere.
+        self.points = self.points.saturating_add(list.len());
+        if depth > DEEPEST || self.points > MOST_POINTS {
             return None;
         }
         if entry.kind == 102 {

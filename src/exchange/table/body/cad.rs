@@ -13,6 +13,10 @@ use crate::units::counted;
 /// What triangles leave surfaces by at most, over the longest extent of these.
 const DEVIATION: f64 = 1e-5;
 
+/// What triangles leave faces inside loops by at most, over the longest extent of the body; the two meshes are
+/// extrapolated.
+const FACE_DEVIATION: f64 = 3e-5;
+
 /// More triangles than this are made fewer by a deviation that is doubled.
 const ENOUGH: usize = 150_000;
 
@@ -42,7 +46,7 @@ fn of_faces(
     let faces = body.faces.len() + unread.len();
     let edges = body.edges.len();
     problems.note(format!("a body ({kind}) of {faces} faces, {edges} edges; the unit of the file is {unit} m"));
-    let made = body.triangulated(DEVIATION, ENOUGH);
+    let made = body.triangulated(FACE_DEVIATION, ENOUGH);
     unread.extend(made.faults.iter().map(|fault| {
         let face = &body.faces[fault.face];
         Unread { line: None, name: face.name.clone(), kind: face.kind.clone(), why: fault.why.to_owned() }
