@@ -201,6 +201,7 @@ fn trace(
             }
             continue;
         }
+        let past_pole = pole.is_some();
         if let Some((id, Preimage { uv, free: Some(free), .. })) = pole.take() {
             let other = 1 - free;
             let mut leaves = found.uv[free];
@@ -222,6 +223,11 @@ fn trace(
             corners.push(Corner { id, uv: at(near[free]), part: None });
             corners.push(Corner { id, uv: at(leaves), part: Some(before) });
             found.uv[free] = leaves;
+        }
+        // Points of an edge are nearer to each other; past a pole that is missed either way may be meant.
+        let jumps = |k: usize| chart.period[k].is_some_and(|period| (found.uv[k] - near[k]).abs() > EITHER * period);
+        if !past_pole && (jumps(0) || jumps(1)) {
+            return Err("its loop passes a pole, and either side of it may be meant");
         }
         if step == points.len() {
             near = found.uv;

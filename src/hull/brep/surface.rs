@@ -12,6 +12,9 @@ const CLOSED: f64 = 1e-6;
 /// Parameters nearer to an end than this part of the domain are that end.
 const ROUNDING: f64 = 1e-9;
 
+/// A line around a surface of this many times the lengths that are 0 is a pole.
+const POLE: f64 = 10.0;
+
 /// Points of a surface from which searches begin, along each direction.
 const SEEDS: usize = 48;
 
@@ -380,7 +383,7 @@ impl<'a> Chart<'a> {
         let [place, du, dv] = self.tangents(uv);
         let widths = [0, 1].map(|k| self.period[k].or(self.domain[k].map(|[a, b]| b - a)));
         let is_point =
-            |slope: [f64; 3], width: Option<f64>| width.is_some_and(|width| length(slope) * width <= self.slack);
+            |slope: [f64; 3], width: Option<f64>| width.is_some_and(|width| length(slope) * width <= POLE * self.slack);
         let free = if is_point(du, widths[0]) {
             Some(0)
         } else if is_point(dv, widths[1]) {
