@@ -195,10 +195,6 @@ fn trace(
         }
         if found.free.is_some() {
             pole = pole.or(Some((id, found)));
-            if let (Some(free), Some(_)) = (found.free, &pole) {
-                // Along the pole nothing moves.
-                found.uv[free] = near[free];
-            }
             continue;
         }
         let past_pole = pole.is_some();
