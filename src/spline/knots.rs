@@ -213,9 +213,7 @@ impl KnotVector {
     }
 
     /// Values of the `degree + 1` basis functions span - p ..= span at `t`; the rest of the array is 0.
-    ///
-    /// # Panics
-    /// When the degree is above [`MAX_DEGREE`].
+    /// Of degrees above [`MAX_DEGREE`] they are not a number.
     #[must_use]
     pub fn basis(&self, span: usize, t: f64) -> [f64; MAX_DEGREE + 1] {
         self.basis_derivatives::<1>(span, t)[0]
@@ -223,9 +221,7 @@ impl KnotVector {
 
     /// Values and derivatives of order 0 to N - 1 of the basis functions span - p ..= span at `t`:
     /// `result[order][function]`. Orders above the degree are 0. Nothing is allocated.
-    ///
-    /// # Panics
-    /// When the degree is above [`MAX_DEGREE`].
+    /// Of degrees above [`MAX_DEGREE`] they are not a number.
     #[must_use]
     pub fn basis_derivatives<const N: usize>(&self, span: usize, t: f64) -> [[f64; MAX_DEGREE + 1]; N] {
         self.orders_in(self.table.number_of(span), t)
@@ -325,7 +321,7 @@ impl KnotVector {
             5 => padded_orders::<6, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
             6 => padded_orders::<7, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
             7 => padded_orders::<8, N, { MAX_DEGREE + 1 }>(window, reciprocals, t),
-            degree => panic!("bases of degree {degree} are not asked for, {MAX_DEGREE} at most"),
+            _ => [[f64::NAN; MAX_DEGREE + 1]; N],
         }
     }
 }

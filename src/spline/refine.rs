@@ -170,7 +170,7 @@ fn clamped<const D: usize>(
     width: usize,
 ) -> Result<Changed<D>, SplineError> {
     let expected = knots.len().saturating_sub(degree + 1);
-    if degree < 1 || degree > HIGHEST_DEGREE {
+    if !(1..=HIGHEST_DEGREE).contains(&degree) {
         return Err(SplineError::Degree(degree));
     }
     if expected <= degree || points.len() != expected * width {

@@ -20,6 +20,11 @@ const HALVES: usize = 400_000;
 /// How often the deviation is doubled at most.
 const DOUBLINGS: usize = 8;
 
+/// Gives the points of a grid of parameters, u slowest.
+pub(in super::super) trait Grid: Fn(&[f64], &[f64]) -> Vec<[f64; 3]> {}
+
+impl<F: Fn(&[f64], &[f64]) -> Vec<[f64; 3]>> Grid for F {}
+
 /// The bends of a surface, which the points of a grid of parameters give, in each span in u, and in v: the most by which halves of it leave their chords, and the
 /// diagonals of its cells theirs.
 pub(in super::super) struct Bends<G> {
@@ -57,7 +62,7 @@ fn breaks(knots: &KnotVector) -> Vec<(f64, bool)> {
     knots.breakpoints().into_iter().map(|t| (t, knots.multiplicity(t) >= knots.degree())).collect()
 }
 
-impl<G: Fn(&[f64], &[f64]) -> Vec<[f64; 3]>> Bends<G> {
+impl<G: Grid> Bends<G> {
     /// Of a surface that is smooth between breaks.
     pub(in super::super) fn of(grid: G, breaks: [Vec<(f64, bool)>; 2]) -> Self {
         let corners = breaks.each_ref().map(|list| list.iter().map(|(_, corner)| *corner).collect());
@@ -174,7 +179,7 @@ fn cut(breaks: &[f64], corners: &[bool], bends: &[(f64, f64)], deviation: f64, t
 }
 
 /// The bends of a spline.
-fn bends(surface: &BsplineSurface<4>) -> Bends<impl Fn(&[f64], &[f64]) -> Vec<[f64; 3]> + '_> {
+fn bends(surface: &BsplineSurface<4>) -> Bends<impl Grid + '_> {
     Bends::of(move |us, vs| grid(surface, us, vs), [breaks(surface.u()), breaks(surface.v())])
 }
 

@@ -241,7 +241,7 @@ fn conic(list: &[f64]) -> Option<Piece> {
     let &[a, b, c, d, e, f, z, ax, ay, bx, by] = list.get(1..12)? else { return None };
     let own = [b, d, e].iter().all(|v| v.abs() <= 1e-12 * a.abs().max(c.abs()));
     let [p, q] = [-f / a, -f / c];
-    if !own || !(p > 0.0 && q > 0.0 && p.is_finite() && q.is_finite()) {
+    if !(own && p > 0.0 && q > 0.0 && p.is_finite() && q.is_finite()) {
         return None;
     }
     let (p, q) = (p.sqrt(), q.sqrt());

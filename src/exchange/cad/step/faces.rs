@@ -128,6 +128,9 @@ impl Known {
     }
 }
 
+/// Faces with the same motions.
+type Group = (Vec<Motion>, BTreeSet<usize>);
+
 /// Where the faces of a file stand: of each all its motions, where assemblies move it.
 struct Placed {
     motions: BTreeMap<usize, Vec<Motion>>,
@@ -139,7 +142,7 @@ impl Placed {
         if self.motions.is_empty() {
             return body;
         }
-        let mut groups: BTreeMap<Vec<[u64; 12]>, (Vec<Motion>, BTreeSet<usize>)> = BTreeMap::new();
+        let mut groups: BTreeMap<Vec<[u64; 12]>, Group> = BTreeMap::new();
         for (k, face) in body.faces.iter().enumerate() {
             let motions = self.motions.get(&face.part).cloned().unwrap_or_else(|| vec![Motion::NONE]);
             let key = motions.iter().map(Motion::bits).collect();
