@@ -1,6 +1,6 @@
 use super::super::Severity;
 use super::*;
-use crate::spline::KnotVector;
+use crate::spline::{BsplineSurface, KnotVector};
 
 /// A box of corners (0, -3, 0) and (40, 3, 4) with its deck, as OBJ in axes that `place` gives.
 fn brick(place: impl Fn([f64; 3]) -> [f64; 3]) -> String {
