@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::hydrostatics::ConventionsRecord;
 use crate::hull::{Hull, HullError, PrincipalParticulars};
 use crate::hydrostatics::Conventions;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE, SplineError};
 
 const FORMAT: &str = "loftsman-hull";
 const VERSION: u64 = 1;
@@ -229,7 +229,13 @@ fn knots(field: &'static str, degree: usize, knots: Vec<f64>) -> Result<KnotVect
         let expected = format!("at most {MOST_POINTS}");
         return Err(HullFileError::Shape { field: field.to_owned(), found: knots.len(), expected });
     }
-    KnotVector::new(degree, knots).map_err(|error| HullFileError::Spline { field, error })
+    // The format keeps to the degrees of hulls.
+    let found = if (1..=MAX_DEGREE).contains(&degree) {
+        KnotVector::new(degree, knots)
+    } else {
+        Err(SplineError::Degree(degree))
+    };
+    found.map_err(|error| HullFileError::Spline { field, error })
 }
 
 /// Reads a hull file.

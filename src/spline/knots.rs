@@ -13,9 +13,12 @@ pub const HIGHEST_DEGREE: usize = 15;
 /// Why data do not make a spline.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SplineError {
-    /// Degree outside 1 to [`HIGHEST_DEGREE`], or above [`MAX_DEGREE`] where a spline is fitted or elevated.
-    #[error("degree {0} is outside 1 to {HIGHEST_DEGREE} ({MAX_DEGREE} where a spline is fitted or elevated)")]
+    /// Degree outside 1 to [`MAX_DEGREE`] of a spline that is fitted or elevated, or of a hull.
+    #[error("degree {0} is outside 1 to {MAX_DEGREE}")]
     Degree(usize),
+    /// Degree outside 1 to [`HIGHEST_DEGREE`] of any spline.
+    #[error("degree {0} is outside 1 to {HIGHEST_DEGREE}")]
+    AnyDegree(usize),
     /// Knots that are not finite, decrease, are not clamped or repeat too often.
     #[error("knot {index} ({value}): {problem}")]
     Knot {
@@ -83,7 +86,7 @@ impl KnotVector {
     /// end is not `degree + 1` fold or an interior knot is more than `degree` fold.
     pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, SplineError> {
         if !(1..=HIGHEST_DEGREE).contains(&degree) {
-            return Err(SplineError::Degree(degree));
+            return Err(SplineError::AnyDegree(degree));
         }
         let bad = |index: usize, problem| {
             Err(SplineError::Knot { index, value: knots.get(index).copied().unwrap_or(f64::NAN), problem })
@@ -358,7 +361,7 @@ mod tests {
 
     #[test]
     fn bad_knots_are_errors() {
-        assert_eq!(KnotVector::uniform(16, 2), Err(SplineError::Degree(16)));
+        assert_eq!(KnotVector::uniform(16, 2), Err(SplineError::AnyDegree(16)));
         let problem = |knots: &[f64]| match KnotVector::new(2, knots.to_vec()) {
             Err(SplineError::Knot { index, problem, .. }) => (index, problem),
             other => panic!("{other:?}"),

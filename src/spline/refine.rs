@@ -171,7 +171,7 @@ fn clamped<const D: usize>(
 ) -> Result<Changed<D>, SplineError> {
     let expected = knots.len().saturating_sub(degree + 1);
     if !(1..=HIGHEST_DEGREE).contains(&degree) {
-        return Err(SplineError::Degree(degree));
+        return Err(SplineError::AnyDegree(degree));
     }
     if expected <= degree || points.len() != expected * width {
         return Err(SplineError::PointCount { found: points.len(), expected: expected * width });
