@@ -145,9 +145,10 @@ impl Hydrostatics {
         found
     }
 
-    /// Coefficients above 1, which the length, breadth and draught they are referred to do not hold, in words.
+    /// Coefficients above 1 by more than `slack`, which the length, breadth and draught they are referred to do not hold, in
+    /// words.
     #[must_use]
-    pub fn above_one(&self) -> Vec<String> {
+    pub fn above_one(&self, slack: f64) -> Vec<String> {
         let coefficients = [
             ("CB", self.block_coefficient),
             ("CM", self.midship_coefficient),
@@ -155,8 +156,9 @@ impl Hydrostatics {
             ("CP", self.prismatic_coefficient),
             ("CWP", self.waterplane_coefficient),
         ];
-        let above =
-            coefficients.into_iter().filter_map(|(name, value)| Some((name, value.filter(|v| *v > 1.0 + ROUNDING)?)));
+        let above = coefficients
+            .into_iter()
+            .filter_map(|(name, value)| Some((name, value.filter(|v| *v > 1.0 + ROUNDING + slack)?)));
         above.map(|(name, value)| format!("{name} {value:.3}")).collect()
     }
 }

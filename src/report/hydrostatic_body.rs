@@ -19,6 +19,8 @@ pub struct HydrostaticBody {
     /// Where it was read from.
     path: PathBuf,
     body: BodyShape,
+    /// What its triangles leave its surface by at most \[m\].
+    deviation: f64,
     /// Its main dimensions; of a body of triangles as far as they are stated, else its extents.
     pub particulars: PrincipalParticulars,
     /// Conventions of its tables.
@@ -115,8 +117,11 @@ impl HydrostaticBody {
                 "The skin is counted twice, turned over, or has walls or tanks inside it: give the outer skin alone";
             return Err(Failure::Input(vec![problem("E353", &self.path, format!("{first}{more}"), remedy)]));
         }
+        let [least, greatest] = bounds;
         let above = |row: &Hydrostatics| {
-            let found = row.above_one();
+            let extents = [greatest[0] - least[0], greatest[1] - least[1], row.draught - least[2]];
+            // Dimensions are measured on triangles, which lie inside the surface.
+            let found = row.above_one(extents.map(|extent| 2.0 * self.deviation / extent).iter().sum());
             (!found.is_empty()).then(|| format!("{} at {:.3} m", found.join(", "), row.draught))
         };
         let warnings = table.rows.iter().find_map(above).map(|found| {
@@ -127,10 +132,19 @@ impl HydrostaticBody {
         Ok((table, warnings.iter().map(ToString::to_string).collect()))
     }
 
-    /// The corners of a box that holds the body \[m\].
+    /// The corners of a box that holds the body \[m\]: triangles lie inside a surface that bends outward.
     fn bounds(&self) -> [[f64; 3]; 2] {
         match &self.body {
-            BodyShape::Triangles(meshes) => meshes.first().and_then(TriangleMesh::bounds).unwrap_or_default(),
+            BodyShape::Triangles(meshes) => {
+                let (mut least, mut greatest) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+                for [low, high] in meshes.iter().filter_map(TriangleMesh::bounds) {
+                    for k in 0..3 {
+                        least[k] = least[k].min(low[k] - self.deviation);
+                        greatest[k] = greatest[k].max(high[k] + self.deviation);
+                    }
+                }
+                [least, greatest]
+            }
             BodyShape::Hull(hull) => {
                 let points = hull.surface().points();
                 let along = |k: usize, pick: fn(f64, f64) -> f64| points.iter().map(|p| p[k]).fold(points[0][k], pick);
@@ -187,7 +201,8 @@ pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<
     let particulars = *source.hull.particulars();
     let body = BodyShape::Hull(Box::new(source.hull));
     let path = path.to_owned();
-    Ok(HydrostaticBody { path, body, particulars, conventions: source.conventions, notes: source.notes })
+    let (conventions, notes) = (source.conventions, source.notes);
+    Ok(HydrostaticBody { path, body, deviation: 0.0, particulars, conventions, notes })
 }
 
 /// The same with a design draught \[m\] above the base line, over that of the file.
@@ -210,7 +225,7 @@ pub fn read_hydrostatic_body_at(path: &Path, overrides: &Overrides, draught: f64
 }
 
 fn of_body(path: &Path, read: ReadBody) -> HydrostaticBody {
-    let [least, greatest] = read.meshes.first().and_then(TriangleMesh::bounds).unwrap_or_default();
+    let [least, greatest] = read.meshes.last().and_then(TriangleMesh::bounds).unwrap_or_default();
     let extent = |k: usize| greatest[k] - least[k];
     let stated = read.stated;
     let mut particulars = PrincipalParticulars {
@@ -233,5 +248,6 @@ fn of_body(path: &Path, read: ReadBody) -> HydrostaticBody {
             particulars.length_between_perpendiculars
         ));
     }
-    HydrostaticBody { path: path.to_owned(), body: BodyShape::Triangles(read.meshes), particulars, conventions, notes }
+    let (path, deviation) = (path.to_owned(), read.deviation);
+    HydrostaticBody { path, body: BodyShape::Triangles(read.meshes), deviation, particulars, conventions, notes }
 }

@@ -48,6 +48,8 @@ pub struct ReadBody {
     pub name: String,
     /// The triangles \[m\], both sides, turned outward; of surfaces twice, the second time with every edge halved.
     pub meshes: Vec<TriangleMesh>,
+    /// What the triangles leave the surfaces of a CAD file by at most \[m\]; 0 where they are the body themselves.
+    pub deviation: f64,
     /// What the conventions beside the file state.
     pub stated: StatedParticulars,
     /// Warnings and notes: axes, units, openings.
@@ -129,6 +131,7 @@ pub fn read_body<'a>(
     {
         return None;
     }
+    let mut deviation = 0.0;
     let meshes = match shape {
         Shape::Triangles(mesh, given) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
@@ -157,11 +160,16 @@ pub fn read_body<'a>(
             framed(meshes.to_vec(), &settings, &given, &mut problems)
         }
         Shape::Nothing => Vec::new(),
-        Shape::Surfaces(read) => cad::meshes(read, kind, &settings, &mut problems),
+        Shape::Surfaces(read) => {
+            let (meshes, off) = cad::meshes(read, kind, &settings, &mut problems);
+            deviation = off;
+            meshes
+        }
     };
     Some(problems.finish().map(|notes| ReadBody {
         name: settings.name.unwrap_or_default(),
         meshes,
+        deviation,
         stated: settings.stated,
         notes,
         sections: settings.frame.sections.unwrap_or(SECTIONS),

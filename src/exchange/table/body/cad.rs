@@ -20,8 +20,14 @@ const FACE_DEVIATION: f64 = 3e-5;
 /// More triangles than this are made fewer by a deviation that is doubled.
 const ENOUGH: usize = 150_000;
 
-/// The body of a CAD file in the ship's frame; none, with problems, when it cannot be read whole.
-pub(super) fn meshes(read: CadSurfaces, kind: &str, settings: &Settings, problems: &mut Problems) -> Vec<TriangleMesh> {
+/// The body of a CAD file in the ship's frame, and what it leaves the surfaces by at most \[m\]; none, with problems, when
+/// it cannot be read whole.
+pub(super) fn meshes(
+    read: CadSurfaces,
+    kind: &str,
+    settings: &Settings,
+    problems: &mut Problems,
+) -> (Vec<TriangleMesh>, f64) {
     let CadSurfaces { mut surfaces, unit, notes, body, mut unread, .. } = read;
     let unit = unit.unwrap_or(1.0);
     notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
@@ -42,7 +48,7 @@ fn of_faces(
     (kind, unit): (&str, f64),
     settings: &Settings,
     problems: &mut Problems,
-) -> Vec<TriangleMesh> {
+) -> (Vec<TriangleMesh>, f64) {
     let faces = body.faces.len() + unread.len();
     let edges = body.edges.len();
     problems.note(format!("a body ({kind}) of {faces} faces, {edges} edges; the unit of the file is {unit} m"));
@@ -69,11 +75,13 @@ fn of_faces(
             message,
             "Convert these faces to B-splines where the file comes from, or give a mesh",
         );
-        return Vec::new();
+        return (Vec::new(), 0.0);
     }
     let triangles = made.meshes[1].triangles.len();
-    problems.note(format!("within {:.1e} m of them: {triangles} triangles", made.deviation * unit));
-    framed(made.meshes.to_vec(), settings, &Given::plain(unit), problems)
+    let given = Given::plain(unit);
+    let deviation = made.deviation * given.metres(settings);
+    problems.note(format!("within {deviation:.1e} m of them: {triangles} triangles"));
+    (framed(made.meshes.to_vec(), settings, &given, problems), deviation)
 }
 
 /// Whole surfaces, in two nested meshes.
@@ -82,7 +90,7 @@ fn of_surfaces(
     (kind, unit): (&str, f64),
     settings: &Settings,
     problems: &mut Problems,
-) -> Vec<TriangleMesh> {
+) -> (Vec<TriangleMesh>, f64) {
     let points = surfaces.iter().map(|surface| surface.points().len()).sum::<usize>();
     problems.note(format!(
         "{} surfaces ({kind}) of {points} control points, untrimmed; the unit of the file is {unit} m",
@@ -91,8 +99,10 @@ fn of_surfaces(
     match TriangleMesh::nested(surfaces, DEVIATION * extent(surfaces), ENOUGH) {
         Ok((nested, deviation)) => {
             let triangles = nested[1].triangles.len();
-            problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
-            framed(nested.to_vec(), settings, &Given { surfaces: true, ..Given::plain(unit) }, problems)
+            let given = Given { surfaces: true, ..Given::plain(unit) };
+            let deviation = deviation * given.metres(settings);
+            problems.note(format!("within {deviation:.1e} m of them: {triangles} triangles"));
+            (framed(nested.to_vec(), settings, &given, problems), deviation)
         }
         Err(count) => {
             let message = format!(
@@ -100,7 +110,7 @@ fn of_surfaces(
                 4 * ENOUGH
             );
             problems.error("E350", FilePosition::FILE, message, "Give the surfaces of the hull alone, or a mesh");
-            Vec::new()
+            (Vec::new(), 0.0)
         }
     }
 }

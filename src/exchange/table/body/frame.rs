@@ -36,6 +36,11 @@ impl Given {
     pub(in super::super) fn plain(unit: f64) -> Self {
         Self { unit, axes: None, half: None, surfaces: false }
     }
+
+    /// Metres in what the coordinates of the file count, by the settings before the file.
+    pub(in super::super) fn metres(&self, settings: &Settings) -> f64 {
+        settings.units.map_or(self.unit, |units| units.metres(1.0)) * settings.frame.scale.unwrap_or(1.0)
+    }
 }
 
 /// The axes of a file whose x is forward, y to port and z up.
@@ -58,10 +63,10 @@ impl Placement {
         given: &Given,
         problems: &mut Problems,
     ) -> Option<Self> {
-        let BodyFrame { axes, up, scale, x_origin, z_origin, .. } = settings.frame;
+        let BodyFrame { axes, up, x_origin, z_origin, .. } = settings.frame;
         let known = axes.or(if up.is_none() { given.axes } else { None });
         let axes = known.or_else(|| found_axes(bounds, up, problems))?;
-        let unit = settings.units.map_or(given.unit, |units| units.metres(1.0)) * scale.unwrap_or(1.0);
+        let unit = given.metres(settings);
         let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
         let origin = [x_origin, z_origin].map(|place| place.unwrap_or(0.0));
         Some(Self { axes, unit, slack: ON_CENTREPLANE * size, origin })
