@@ -1,5 +1,6 @@
 //! Sewing: edges that faces do not share, though they lie on each other, become one.
 
+use super::nearest::{Nearest, nearest};
 use super::{Brep, BrepEdge};
 use crate::spline::{length, minus};
 use std::collections::HashMap;
@@ -72,7 +73,7 @@ impl Brep {
             let mut cuts: Vec<(f64, usize)> = ends
                 .iter()
                 .filter(|&&v| !edge.ends.contains(&v) && inside(self.vertices[v]))
-                .map(|&v| (edge.curve.nearest(self.vertices[v]), v))
+                .map(|&v| (edge.nearest(self.vertices[v]), v))
                 .filter(|(found, _)| found.distance <= slack && found.parameter > low && found.parameter < high)
                 .map(|(found, v)| (found.parameter, v))
                 .collect();
@@ -115,7 +116,7 @@ impl Brep {
                 |edge: &BrepEdge, share: f64| edge.curve.point(edge.range[0] + share * (edge.range[1] - edge.range[0]));
             let middle = at(edge, 0.5);
             let far = (ALONG * edge.length()).max(slack);
-            let twin = others.iter().copied().find(|&other| self.edges[other].distance(middle) <= far);
+            let twin = others.iter().copied().find(|&other| self.edges[other].nearest(middle).distance <= far);
             match twin {
                 Some(other) => {
                     let own = &self.edges[other];
@@ -156,10 +157,10 @@ impl BrepEdge {
         points.windows(2).map(|w| length(minus(w[1], w[0]))).sum()
     }
 
-    /// How far a point is from it.
-    fn distance(&self, point: [f64; 3]) -> f64 {
-        let own = self.shares().map(|t| length(minus(self.curve.point(t), point))).fold(f64::INFINITY, f64::min);
-        own.min(self.curve.nearest(point).distance)
+    /// The point between its ends that is nearest to another: two arcs of a circle are two edges.
+    fn nearest(&self, point: [f64; 3]) -> Nearest {
+        let [a, b] = self.range;
+        nearest(|t| self.curve.at(t), &self.curve.breaks(a.min(b), a.max(b)), false, point)
     }
 
     /// A box around it.
