@@ -18,6 +18,9 @@ const POLE: f64 = 10.0;
 /// Points of a surface from which searches begin, along each direction.
 const SEEDS: usize = 48;
 
+/// Lines of these points, in each direction, of which the nearest point is a start.
+const STARTS: usize = 3;
+
 /// A surface with its parameters u and v; its normal is S_u x S_v.
 #[derive(Debug, Clone)]
 pub enum FaceSurface {
@@ -167,11 +170,13 @@ impl FaceSurface {
             Self::Plane { origin, x, y } => {
                 Self::Plane { origin: motion.point(*origin), x: motion.along(*x), y: motion.along(*y) }
             }
-            Self::Revolved { origin, axis, profile } => Self::Revolved {
-                origin: motion.point(*origin),
-                axis: unit(motion.along(*axis)),
-                profile: profile.moved(motion),
-            },
+            Self::Revolved { origin, axis, profile } => {
+                // A reflection turns the angle about the axis over.
+                let [x, y, z] = [0, 1, 2].map(|k| motion.along([0, 1, 2].map(|j| f64::from(j == k))));
+                let sense = dot(cross(x, y), z).signum();
+                let axis = unit(motion.along(*axis)).map(|c| sense * c);
+                Self::Revolved { origin: motion.point(*origin), axis, profile: profile.moved(motion) }
+            }
             Self::Extruded { profile, along } => {
                 Self::Extruded { profile: profile.moved(motion), along: motion.along(*along) }
             }
@@ -227,6 +232,14 @@ pub(super) struct Preimage {
     pub(super) free: Option<usize>,
 }
 
+/// Parameters and their point.
+type Seed = ([f64; 2], [f64; 3]);
+
+/// The nearest of places by their distances.
+fn lowest<'a>(places: impl Iterator<Item = &'a (f64, [f64; 2])>) -> Option<(f64, [f64; 2])> {
+    places.min_by(|a, b| a.0.total_cmp(&b.0)).copied()
+}
+
 /// A surface with what searches on it need.
 pub(super) struct Chart<'a> {
     pub(super) surface: &'a FaceSurface,
@@ -236,7 +249,8 @@ pub(super) struct Chart<'a> {
     pub(super) domain: [Option<[f64; 2]>; 2],
     /// Lengths that are 0.
     slack: f64,
-    seeds: Vec<([f64; 2], [f64; 3])>,
+    /// Places from which searches begin, in rows of one u.
+    seeds: Vec<Vec<Seed>>,
     /// Of a profile in a plane with its axis, the direction of that plane off the axis.
     side: Option<[f64; 3]>,
 }
@@ -268,11 +282,8 @@ impl<'a> Chart<'a> {
         }
         if let (FaceSurface::Ruled { .. } | FaceSurface::Spline(_), [Some(us), Some(vs)]) = (surface, chart.domain) {
             let grid = [0, 1].map(|axis| chart.sites(axis));
-            chart.seeds = grid[0]
-                .iter()
-                .flat_map(|&u| grid[1].iter().map(move |&v| [u, v]))
-                .map(|uv| (uv, surface.at(uv)[0]))
-                .collect();
+            chart.seeds =
+                grid[0].iter().map(|&u| grid[1].iter().map(|&v| ([u, v], surface.at([u, v])[0])).collect()).collect();
             let apart = |a: [f64; 2], b: [f64; 2]| length(minus(surface.at(a)[0], surface.at(b)[0]));
             let meets = |axis: usize| {
                 let (ends, across) = if axis == 0 { (us, &grid[1]) } else { (vs, &grid[0]) };
@@ -467,11 +478,18 @@ impl<'a> Chart<'a> {
         {
             return uv;
         }
-        let mut starts: Vec<(f64, [f64; 2])> =
-            self.seeds.iter().map(|(uv, place)| (length(minus(*place, point)), *uv)).collect();
-        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let others = starts.iter().step_by(3).take(4).map(|(_, start)| from(*start));
-        let best = beside.into_iter().chain(others).min_by(|a, b| a.1.total_cmp(&b.1));
+        let far = |(uv, place): &Seed| (length(minus(*place, point)), *uv);
+        let seeds: Vec<Vec<(f64, [f64; 2])>> = self.seeds.iter().map(|row| row.iter().map(far).collect()).collect();
+        // The nearest ones may all stand on the wrong side of a fold: those of several lines in both directions do not.
+        let rows = seeds.iter().map(|row| lowest(row.iter()));
+        let columns = (0..seeds.first().map_or(0, Vec::len)).map(|k| lowest(seeds.iter().map(move |row| &row[k])));
+        let best_of = |mut list: Vec<(f64, [f64; 2])>| {
+            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            list.truncate(STARTS);
+            list
+        };
+        let starts = best_of(rows.flatten().collect()).into_iter().chain(best_of(columns.flatten().collect()));
+        let best = beside.into_iter().chain(starts.map(|(_, start)| from(start))).min_by(|a, b| a.1.total_cmp(&b.1));
         best.map_or([0.0; 2], |(uv, _)| uv)
     }
 
