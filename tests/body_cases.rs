@@ -93,6 +93,7 @@ fn faces_of_cad_files_displace_what_is_inside_them() {
         ("moonpool.step", 2.0, 640.0 - 4.5 * std::f64::consts::PI),
         ("moonpool.igs", 2.0, 640.0 - 4.5 * std::f64::consts::PI),
         ("bulb.step", 2.5, 461.453_723_217),
+        ("bulb.igs", 2.5, 461.453_723_217),
         ("sphere.igs", 0.0, 250.0 / 3.0 * std::f64::consts::PI),
         ("cone.step", 0.5, 184.989_941_823),
         ("thruster.step", 2.5, 268.125_596),
@@ -105,12 +106,20 @@ fn faces_of_cad_files_displace_what_is_inside_them() {
     assert!(!notes.iter().any(|note| note.starts_with('W')), "{notes:?}");
 }
 
-/// A hemisphere between two poles of its sphere: the file does not say which.
+/// A quarter of a sphere, or the three others: without the curves among its parameters the file does not say which.
 #[test]
 fn faces_that_cannot_be_read_are_counted_by_their_kinds() {
-    let output = program(&["hydro", &case("bulb.igs").display().to_string(), "--draughts", "2"]);
+    let text = fs::read_to_string(case("bulb.igs")).unwrap();
+    let without = text.replace("142,0,125,137,143,3;", "142,0,125,0,143,3;  ");
+    assert_ne!(without, text);
+    let folder = folder("body-either-side");
+    let path = folder.join("bulb.igs");
+    fs::write(&path, without).unwrap();
+    let output = program(&["hydro", &path.display().to_string(), "--draughts", "2"]);
     let said = stderr(&output);
-    assert!(output.status.code() == Some(3) && said.contains("E352") && said.contains("of entity 120"), "{said}");
+    assert!(output.status.code() == Some(3) && said.contains("E352"), "{said}");
+    assert!(said.contains("1 of 9 faces cannot be read (1 of entity 120)") && said.contains("meets a pole"), "{said}");
+    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

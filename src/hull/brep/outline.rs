@@ -8,7 +8,7 @@ use std::collections::HashMap;
 /// Changes of a closed parameter that are none, over its length.
 const SAME: f64 = 1e-6;
 
-/// From this part of a turn on the shorter way along a pole is not plainly the right one.
+/// From this part of a turn on the shorter way between two points of an edge is not plainly the right one.
 const EITHER: f64 = 0.4;
 
 /// Closed edges of a loop that are turned at most.
@@ -61,12 +61,17 @@ impl Outline {
         };
         let loops = beside(loops, chart);
         let closed = chart.period.iter().any(Option::is_some);
-        if let (true, Some(left), Some(outer)) = (closed, face.left, loops.first())
-            && (area(outer) > 0.0) != left
-        {
-            return Err("its loops run the other way round than its inside asks for");
+        let mut left = face.left;
+        if let (true, Some(stated), Some(outer)) = (closed, face.left, loops.first()) {
+            let found = area(outer) > 0.0;
+            // What a loop encloses with its seam lies on both sides of the seam, whatever its direction.
+            let has_seam = face.loops.iter().any(|edges| edges.iter().any(|&(k, along)| edges.contains(&(k, !along))));
+            if found != stated && !has_seam {
+                return Err("its loops run the other way round than its inside asks for");
+            }
+            left = Some(found);
         }
-        Ok(Self { loops, left: face.left })
+        Ok(Self { loops, left })
     }
 
     /// Least and greatest parameters.
@@ -206,10 +211,10 @@ fn trace(
                 // The inside is to the left: at the upper end of v it lies at smaller u, at the upper end of u at larger v.
                 let ahead = if (uv[other] > near[other]) == (free == 0) { -1.0 } else { 1.0 };
                 let ahead = if left == Some(false) { -ahead } else { ahead };
-                if left.is_none() && turn.abs() > EITHER * period {
+                if left.is_none() {
                     return Err("its loop meets a pole, and either side of it may be meant");
                 }
-                if turn.abs() <= SAME * period || (left.is_some() && turn * ahead < 0.0) {
+                if turn.abs() <= SAME * period || turn * ahead < 0.0 {
                     leaves += ahead * period;
                 }
             }
@@ -290,7 +295,11 @@ fn unwound(
             to_pole(corners, axis, turn as f64 * period, pole, chart, samples)
         }
         (&[a, b], Some(first), Some(second)) if a.abs() == 1 && a == -b => {
-            across(first, second, axis, a as f64 * period, chart)
+            // Of a torus they cut off two parts.
+            if left.is_none() && chart.period[other].is_some() {
+                return Err("two loops wind around it, and either part between them may be meant");
+            }
+            across(first, second, axis, a as f64 * period, left != Some(false), chart)
         }
         _ => return Err("its loops wind around it more than once"),
     };
@@ -319,7 +328,14 @@ fn to_pole(
 }
 
 /// Two loops around, in opposite directions, with a seam between them that is run through twice.
-fn across(mut first: Vec<Corner>, mut second: Vec<Corner>, axis: usize, turn: f64, chart: &Chart<'_>) -> Vec<Corner> {
+fn across(
+    mut first: Vec<Corner>,
+    mut second: Vec<Corner>,
+    axis: usize,
+    turn: f64,
+    left: bool,
+    chart: &Chart<'_>,
+) -> Vec<Corner> {
     let begin = first[0];
     let mut end = begin.uv;
     end[axis] += turn;
@@ -338,7 +354,7 @@ fn across(mut first: Vec<Corner>, mut second: Vec<Corner>, axis: usize, turn: f6
     let other = 1 - axis;
     let lift = chart.period[other].map_or(0.0, |length| {
         // Around a torus the second loop is where it is reached first.
-        let side = if (turn > 0.0) == (axis == 0) { 1.0 } else { -1.0 };
+        let side = if ((turn > 0.0) == (axis == 0)) == left { 1.0 } else { -1.0 };
         let rise = second[0].uv[other] - begin.uv[other];
         if rise * side < 0.0 { side * length * (rise.abs() / length).ceil() } else { 0.0 }
     });

@@ -7,6 +7,7 @@ use super::super::surfaces::Unread;
 use super::geometry::{Geometry, Piece};
 use super::read::Entry;
 use crate::hull::{Brep, BrepEdge, BrepFace, FaceSurface, SpaceCurve};
+use crate::spline::{length, minus};
 
 /// Points of a curve in the parameters of a surface, a span.
 const SAMPLES: usize = 32;
@@ -14,8 +15,14 @@ const SAMPLES: usize = 32;
 /// The parameters of an entity, and those of its transformation.
 pub(super) type Lists<'a> = &'a dyn Fn(&Entry) -> (Vec<f64>, Option<Vec<f64>>);
 
-/// Loops of a face, edge by edge and with their directions.
-type Loops = Vec<Vec<(usize, bool)>>;
+/// Ends of curves in space and in the parameters of a surface are nearer to each other than this part of the size of a loop.
+const AGREES: f64 = 1e-3;
+
+/// A loop, edge by edge and with their directions.
+type Ring = Vec<(usize, bool)>;
+
+/// Loops of a face, and whether its inside is to their left about S_u x S_v; none where the file does not say so.
+type Loops = (Vec<Ring>, Option<bool>);
 
 struct FaceReader<'a> {
     geometry: Geometry<'a>,
@@ -55,6 +62,11 @@ fn pointer(list: &[f64], k: usize) -> usize {
     list.get(k).copied().filter(|v| (0.0..1e9).contains(v)).unwrap_or(0.0) as usize
 }
 
+/// A loop run through the other way round.
+fn backward(ring: Ring) -> Ring {
+    ring.into_iter().rev().map(|(edge, along)| (edge, !along)).collect()
+}
+
 impl FaceReader<'_> {
     fn face(&mut self, number: usize, entry: &Entry, list: &[f64]) {
         let support = match entry.kind {
@@ -70,7 +82,7 @@ impl FaceReader<'_> {
                 144 => self.trimmed(list, &surface),
                 143 => self.bounded(list, &surface),
                 510 => self.of_solid(list),
-                _ => self.pieces(pointer(list, 5)).map(|pieces| vec![self.ring(pieces)]),
+                _ => self.pieces(pointer(list, 5)).map(|pieces| (vec![self.ring(pieces)], None)),
             };
             Ok((surface, loops.ok_or("its edges")?))
         });
@@ -86,7 +98,9 @@ impl FaceReader<'_> {
     ) {
         let kind = format!("of entity {kind}");
         match read {
-            Ok((surface, loops)) => self.body.faces.push(BrepFace { name, kind, surface, loops, left: None, part }),
+            Ok((surface, (loops, left))) => {
+                self.body.faces.push(BrepFace { name, kind, surface, loops, left, part });
+            }
             Err(why) => {
                 self.unread.push(Unread { line: Some(line), name, kind, why: format!("{why} cannot be read") });
             }
@@ -112,42 +126,48 @@ impl FaceReader<'_> {
             let read = self.geometry.surface(number, 0).ok_or("its surface").and_then(|surface| {
                 let ends = self.geometry.ends(number, &surface).ok_or("its edges")?;
                 let ring = self.around(&surface, ends).ok_or("its edges")?;
-                Ok((surface, vec![ring]))
+                Ok((surface, (vec![ring], Some(true))))
             });
             self.push(read, (name, number), entry.kind, entry.line);
         }
     }
 
-    /// The four sides of a surface.
-    fn around(&mut self, surface: &FaceSurface, [[a, b], [c, d]]: [[f64; 2]; 2]) -> Option<Vec<(usize, bool)>> {
+    /// The four sides of a surface, with its inside to their left.
+    fn around(&mut self, surface: &FaceSurface, [[a, b], [c, d]]: [[f64; 2]; 2]) -> Option<Ring> {
         let sides = [(1, c, [a, b]), (0, b, [c, d]), (1, d, [b, a]), (0, a, [d, c])];
         let pieces: Option<Vec<Piece>> =
             sides.into_iter().map(|(axis, at, ends)| surface.side(axis, at, ends)).collect();
-        Some(self.ring(pieces?))
+        Some(pieces?.into_iter().map(|piece| (self.edge(piece), true)).collect())
     }
 
     fn trimmed(&mut self, list: &[f64], surface: &FaceSurface) -> Option<Loops> {
-        let (outer, inner) = (pointer(list, 2), pointer(list, 3));
-        let mut loops = Vec::new();
+        let (support, outer, inner) = (pointer(list, 1), pointer(list, 2), pointer(list, 3));
+        let (mut loops, mut known) = (Vec::new(), true);
         if outer == 0 {
-            let ends = self.geometry.ends(pointer(list, 1), surface)?;
+            let ends = self.geometry.ends(support, surface)?;
             loops.push(self.around(surface, ends)?);
         } else {
-            loops.push(self.on_surface(pointer(list, 4), surface)?);
+            let (ring, left) = self.on_surface(pointer(list, 4), (support, surface))?;
+            known &= left.is_some();
+            loops.push(if left == Some(false) { backward(ring) } else { ring });
         }
         for k in 0..inner.min(list.len()) {
-            loops.push(self.on_surface(pointer(list, 5 + k), surface)?);
+            // An inner loop encloses what is outside.
+            let (ring, left) = self.on_surface(pointer(list, 5 + k), (support, surface))?;
+            known &= left.is_some();
+            loops.push(if left == Some(true) { backward(ring) } else { ring });
         }
-        Some(loops)
+        Some((loops, known.then_some(true)))
     }
 
     fn bounded(&mut self, list: &[f64], surface: &FaceSurface) -> Option<Loops> {
         let count = pointer(list, 3).min(list.len());
-        (0..count).map(|k| self.boundary(pointer(list, 4 + k), surface)).collect()
+        let loops: Option<Vec<Ring>> = (0..count).map(|k| self.boundary(pointer(list, 4 + k), surface)).collect();
+        Some((loops?, None))
     }
 
     /// A boundary (141): curves in turn.
-    fn boundary(&mut self, number: usize, surface: &FaceSurface) -> Option<Vec<(usize, bool)>> {
+    fn boundary(&mut self, number: usize, surface: &FaceSurface) -> Option<Ring> {
         let (entry, list, _) = self.geometry.entity(number)?;
         if entry.kind != 141 {
             return None;
@@ -173,22 +193,83 @@ impl FaceReader<'_> {
         Some(self.ring(pieces))
     }
 
-    /// A curve on a surface (142), in space where it is given there, and otherwise by its parameters.
-    fn on_surface(&mut self, number: usize, surface: &FaceSurface) -> Option<Vec<(usize, bool)>> {
+    /// A curve on a surface (142), in space where it is given there, and otherwise by its parameters; and whether what it
+    /// encloses among the parameters is to its left.
+    fn on_surface(&mut self, number: usize, (support, surface): (usize, &FaceSurface)) -> Option<(Ring, Option<bool>)> {
         let (entry, list, _) = self.geometry.entity(number)?;
-        let pieces = if entry.kind == 142 {
-            self.pieces(pointer(&list, 4)).or_else(|| self.geometry.mapped(pointer(&list, 3), surface, SAMPLES))?
-        } else {
-            self.pieces(number)?
+        if entry.kind != 142 {
+            let pieces = self.pieces(number)?;
+            return Some((self.ring(pieces), None));
+        }
+        let pieces =
+            self.pieces(pointer(&list, 4)).or_else(|| self.geometry.mapped(pointer(&list, 3), surface, SAMPLES))?;
+        let mut ring = self.ring(pieces);
+        let plane = self.geometry.on_parameters(pointer(&list, 3), support);
+        let left = plane.and_then(|plane| self.encloses_left(&mut ring, &plane, surface));
+        Some((ring, left))
+    }
+
+    /// Whether a loop runs around what it encloses among the parameters so that this is to its left; none where its curves
+    /// there do not agree with those in space. Closed edges, which have no direction by their ends, take that of these.
+    fn encloses_left(&self, ring: &mut Ring, plane: &[Vec<[f64; 2]>], surface: &FaceSurface) -> Option<bool> {
+        let apart = |a: [f64; 3], b: [f64; 3]| length(minus(a, b));
+        let lifted = |points: &Vec<[f64; 2]>, share: f64| {
+            let k = (share * (points.len() - 1) as f64).round() as usize;
+            surface.at(points[k])[0]
         };
-        Some(self.ring(pieces))
+        let size = plane.iter().map(|points| apart(lifted(points, 0.0), lifted(points, 0.5))).fold(0.0, f64::max);
+        let slack = AGREES * size;
+        if plane.len() != ring.len() {
+            return None;
+        }
+        let mut same = None;
+        let mut closed = Vec::new();
+        for (k, (points, &(edge, along))) in plane.iter().zip(ring.iter()).enumerate() {
+            let BrepEdge { curve, range: [from, to], .. } = &self.body.edges[edge];
+            let own = |share: f64| {
+                let share = if along { share } else { 1.0 - share };
+                curve.point(from + share * (to - from))
+            };
+            let off = |a: f64, b: f64| {
+                let alike = apart(lifted(points, a), own(a)).max(apart(lifted(points, b), own(b)));
+                let crosswise = apart(lifted(points, a), own(b)).max(apart(lifted(points, b), own(a)));
+                (alike, crosswise)
+            };
+            let (alike, crosswise) = off(0.0, 1.0);
+            if alike.min(crosswise) > slack {
+                return None;
+            }
+            if alike.max(crosswise) <= slack {
+                let (alike, crosswise) = off(0.25, 0.75);
+                closed.push((k, alike <= crosswise));
+            } else if same.is_some_and(|same| same != (alike <= crosswise)) {
+                return None;
+            } else {
+                same = Some(alike <= crosswise);
+            }
+        }
+        // A gap among the parameters is a point in space: a pole.
+        let next = plane.iter().cycle().skip(1);
+        for (points, next) in plane.iter().zip(next) {
+            let (Some(&a), Some(&b)) = (points.last(), next.first()) else { return None };
+            let between = |share: f64| surface.at([0, 1].map(|k: usize| a[k] + share * (b[k] - a[k])))[0];
+            if (1..=4).any(|k| apart(between(0.25 * f64::from(k)), between(0.0)) > slack) {
+                return None;
+            }
+        }
+        let same = same.or(closed.first().map(|(_, alike)| *alike))?;
+        closed.into_iter().filter(|(_, alike)| *alike != same).for_each(|(k, _)| ring[k].1 = !ring[k].1);
+        let corners = || plane.iter().flatten();
+        let area: f64 = corners().zip(corners().cycle().skip(1)).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum();
+        (area.abs() > 0.0).then_some((area > 0.0) == same)
     }
 
     fn pieces(&mut self, number: usize) -> Option<Vec<Piece>> {
         self.geometry.pieces(number, 0)
     }
 
-    /// The loops of a face of a solid (508), whose edges stand in lists (504).
+    /// The loops of a face of a solid (508), whose edges stand in lists (504). The face is to their left about the normal of
+    /// its surface.
     fn of_solid(&mut self, list: &[f64]) -> Option<Loops> {
         let count = pointer(list, 2).min(list.len());
         let mut loops = Vec::new();
@@ -208,7 +289,7 @@ impl FaceReader<'_> {
             }
             loops.push(edges);
         }
-        Some(loops)
+        Some((loops, self.geometry.has_our_normal(pointer(list, 1))))
     }
 
     fn listed(&mut self, number: usize, index: usize) -> Option<usize> {
@@ -247,8 +328,8 @@ impl FaceReader<'_> {
     }
 
     /// Curves end to end as edges, each turned to where the one before it ends.
-    fn ring(&mut self, pieces: Vec<Piece>) -> Vec<(usize, bool)> {
-        let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>();
+    fn ring(&mut self, pieces: Vec<Piece>) -> Ring {
+        let apart = |a: [f64; 3], b: [f64; 3]| length(minus(a, b));
         let ends: Vec<[[f64; 3]; 2]> =
             pieces.iter().map(|(curve, range): &(SpaceCurve, [f64; 2])| range.map(|t| curve.point(t))).collect();
         let mut forward: Vec<bool> = Vec::with_capacity(ends.len());
@@ -263,13 +344,14 @@ impl FaceReader<'_> {
             };
             forward.push(along);
         }
-        let mut list = Vec::with_capacity(pieces.len());
-        for (((curve, range), [from, to]), along) in pieces.into_iter().zip(ends).zip(forward) {
-            let first = self.body.vertices.len();
-            self.body.vertices.extend([from, to]);
-            self.body.edges.push(BrepEdge { ends: [first, first + 1], curve, range });
-            list.push((self.body.edges.len() - 1, along));
-        }
-        list
+        pieces.into_iter().zip(forward).map(|(piece, along)| (self.edge(piece), along)).collect()
+    }
+
+    /// A curve as an edge between vertices of its own.
+    fn edge(&mut self, (curve, range): Piece) -> usize {
+        let first = self.body.vertices.len();
+        self.body.vertices.extend(range.map(|t| curve.point(t)));
+        self.body.edges.push(BrepEdge { ends: [first, first + 1], curve, range });
+        self.body.edges.len() - 1
     }
 }

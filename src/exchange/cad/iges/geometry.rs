@@ -13,8 +13,32 @@ use crate::spline::{BsplineCurve, KnotVector};
 /// Curves of curves, and surfaces of surfaces, at most.
 const DEEPEST: usize = 8;
 
+/// Points of a straight piece of a curve in the parameters of a surface.
+const STRAIGHT: usize = 8;
+
 /// A curve between two of its parameters.
 pub(super) type Piece = (SpaceCurve, [f64; 2]);
+
+/// How the parameters of an entity become ours.
+#[derive(Debug, Clone, Copy)]
+enum Order {
+    /// They are.
+    Same,
+    /// Those of a surface of revolution (120): along the generatrix, then the angle.
+    Swapped,
+    /// Those of a tabulated cylinder (122): shares of the generatrix between two of its parameters.
+    Shares([f64; 2]),
+}
+
+impl Order {
+    fn ours(self, [u, v]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Same => [u, v],
+            Self::Swapped => [v, u],
+            Self::Shares([from, to]) => [from + u * (to - from), v],
+        }
+    }
+}
 
 /// The entities of a file with what reading their geometry needs.
 pub(super) struct Geometry<'a> {
@@ -108,6 +132,43 @@ impl<'a> Geometry<'a> {
             SpaceCurve::polyline(&points).map(|curve| (curve, [0.0, last]))
         };
         self.pieces(number, 0)?.into_iter().map(lift).collect()
+    }
+
+    /// The curves of a loop in the parameters of a surface as points of ours, piece by piece; none where the file has no such
+    /// curves, or the order of its parameters is not known.
+    pub(super) fn on_parameters(&mut self, number: usize, support: usize) -> Option<Vec<Vec<[f64; 2]>>> {
+        let order = self.order(support, 0)?;
+        let sampled = |(curve, [from, to]): Piece| {
+            let count = if curve.is_straight(from, to) { STRAIGHT } else { 8 * STRAIGHT };
+            let site = |k: usize| from + (to - from) * k as f64 / count as f64;
+            let place = |k: usize| {
+                let [u, v, _] = curve.point(site(k));
+                order.ours([u, v])
+            };
+            (0..=count).map(place).collect()
+        };
+        Some(self.pieces(number, 0)?.into_iter().map(sampled).collect())
+    }
+
+    /// How the parameters of an entity become ours.
+    fn order(&mut self, number: usize, depth: usize) -> Option<Order> {
+        let (entry, list, _) = self.entity(number)?;
+        match entry.kind {
+            118 | 128 => Some(Order::Same),
+            120 => Some(Order::Swapped),
+            122 => self.piece(pointer(&list, 1)?).map(|(_, ends)| Order::Shares(ends)),
+            140 if depth <= DEEPEST => self.order(pointer(&list, 5)?, depth + 1),
+            _ => None,
+        }
+    }
+
+    /// Whether S_u x S_v of our parameters is the normal of an entity of a solid; none where it is not known.
+    pub(super) fn has_our_normal(&mut self, number: usize) -> Option<bool> {
+        let (entry, _, _) = self.entity(number)?;
+        match entry.kind {
+            108 | 190..=198 => Some(true),
+            _ => self.order(number, 0).map(|order| !matches!(order, Order::Swapped)),
+        }
     }
 
     fn direction(&self, number: usize) -> Option<[f64; 3]> {
