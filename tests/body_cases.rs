@@ -94,6 +94,8 @@ fn faces_of_cad_files_displace_what_is_inside_them() {
         ("moonpool.igs", 2.0, 640.0 - 4.5 * std::f64::consts::PI),
         ("bulb.step", 2.5, 461.453_723_217),
         ("bulb.igs", 2.5, 461.453_723_217),
+        ("ball270.igs", -0.5, 222.660_379_315),
+        ("round-ends.step", 0.7, 544.610_639_133),
         ("sphere.igs", 0.0, 250.0 / 3.0 * std::f64::consts::PI),
         ("cone.step", 0.5, 184.989_941_823),
         ("thruster.step", 2.5, 268.125_596),
