@@ -388,7 +388,7 @@ mod tests {
         let third = std::f64::consts::TAU / 3.0;
         let knots: Vec<f64> = [-1, 0, 0, 1, 1, 2, 2, 3, 3, 4].map(|k| f64::from(k) * third).to_vec();
         let round = |k: usize| {
-            let (w, radius) = if k % 2 == 0 { (1.0, 1.0) } else { (0.5, 2.0) };
+            let (w, radius) = if k.is_multiple_of(2) { (1.0, 1.0) } else { (0.5, 2.0) };
             let angle = 0.5 * third * k as f64;
             [w * radius * angle.cos(), w * radius * angle.sin(), w]
         };
