@@ -1,9 +1,9 @@
 //! A body of faces: surfaces inside loops of edges, as CAD files hold it.
 //!
 //! A face is its surface inside its loops. Edges become chains of points that the faces beside them share, so that the
-//! triangles over a closed body are closed. The loops are carried into the parameters of the surface, closed across
-//! its seam or at its poles where they wind around it, and their inside is triangulated with the points of a grid that
-//! follows the surface. A second mesh halves every edge of the first on curves and surfaces: what is integrated over
+//! triangles over a closed body are closed. The loops are carried into the parameters of the surface, and closed across
+//! its seam or at its poles where they wind around it. Their inside is triangulated with the points of a grid that follows
+//! the surface. A second mesh halves every edge of the first on curves and surfaces: what is integrated over
 //! the two is extrapolated (see [`super::TriangleMesh::nested`]).
 
 mod curve;
@@ -275,26 +275,27 @@ impl Brep {
     #[must_use]
     pub fn triangulated(&self, deviation: f64, enough: usize) -> BrepMesh {
         let sewn = self.sewn();
-        let mut deviation = deviation * sewn.size();
+        let size = sewn.size();
+        let charts: Vec<Chart<'_>> = sewn.faces.iter().map(|face| Chart::new(&face.surface, size)).collect();
+        let mut deviation = deviation * size;
         for _ in 0..8 {
-            if let Some(mesh) = sewn.mesh(deviation, enough) {
+            if let Some(mesh) = sewn.mesh((&charts, size), deviation, enough) {
                 return mesh;
             }
             deviation *= 2.0;
         }
         let too_many =
             |face: usize| FaceFault { face, why: "it bends so often that too many triangles would follow it" };
-        sewn.mesh(deviation, 4 * enough).unwrap_or_else(|| BrepMesh {
+        sewn.mesh((&charts, size), deviation, 4 * enough).unwrap_or_else(|| BrepMesh {
             meshes: [TriangleMesh::default(), TriangleMesh::default()],
             deviation,
             faults: (0..self.faces.len()).map(too_many).collect(),
         })
     }
 
-    /// The meshes of a deviation \[m\]; none where there would be more than `enough` triangles.
-    fn mesh(&self, deviation: f64, enough: usize) -> Option<BrepMesh> {
-        let size = self.size();
-        let charts: Vec<Chart<'_>> = self.faces.iter().map(|face| Chart::new(&face.surface, size)).collect();
+    /// The meshes of a deviation \[m\], by the charts of the faces and the size of the body; none where there would be more
+    /// than `enough` triangles.
+    fn mesh(&self, (charts, size): (&[Chart<'_>], f64), deviation: f64, enough: usize) -> Option<BrepMesh> {
         let mut sites: Vec<Vec<f64>> = self.edges.iter().map(|edge| sites(edge, deviation)).collect();
         let count = |sites: &[Vec<f64>]| sites.iter().map(Vec::len).fold(0, usize::saturating_add);
         if count(&sites) > enough {
@@ -304,7 +305,7 @@ impl Brep {
         let mut lines = Vec::with_capacity(charts.len());
         let mut parts: Vec<Vec<usize>> = sites.iter().map(|sites| vec![1; sites.len() - 1]).collect();
         let mut cells = 0;
-        for (face, chart) in self.faces.iter().zip(&charts) {
+        for (face, chart) in self.faces.iter().zip(charts) {
             let found = Outline::of(face, chart, &mut samples, OFF * size).map(|outline| {
                 let lines = grid_lines(chart, outline.bounds(), deviation);
                 outline.crossed(&lines, &mut parts);
@@ -328,7 +329,7 @@ impl Brep {
         }
         let mut samples = Samples::of(&self.vertices, &self.edges, &sites);
         let (mut coarse, mut fine, mut faults) = (Vec::new(), Vec::new(), Vec::new());
-        for (k, (face, chart)) in self.faces.iter().zip(&charts).enumerate() {
+        for (k, (face, chart)) in self.faces.iter().zip(charts).enumerate() {
             let found = Outline::of(face, chart, &mut samples, OFF * size).and_then(|outline| {
                 let lines = lines[k].as_ref().map_err(|why| *why)?;
                 Patch::of(outline.refined(lines, chart, &mut samples), lines)

@@ -9,7 +9,7 @@ mod shells;
 mod surfaces;
 
 pub use shells::InnerShells;
-pub(super) use surfaces::Bends;
+pub(super) use surfaces::{Bends, corners};
 
 use super::mesh::{MeshReport, measure};
 use super::vertices::Known;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::convert::is_hull;
 use super::failure::{Failure, problem};
 use super::source::{Overrides, read_bytes, read_source_with, sidecar, source_of};
+use super::verdict::is_warning;
 use crate::config::{Diagnostic, Severity};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{AFLOAT, AT_EDGE, Hull, HullError, PrincipalParticulars, TriangleMesh};
@@ -48,11 +49,7 @@ impl HydrostaticBody {
 
     /// Those of the notes that are warnings.
     pub fn warnings(&self) -> impl Iterator<Item = String> + '_ {
-        let is_warning = |note: &&String| {
-            let code = note.as_bytes();
-            code.len() > 4 && code[0] == b'W' && code[1..4].iter().all(u8::is_ascii_digit)
-        };
-        self.notes.iter().filter(is_warning).cloned()
+        self.notes.iter().filter(|note| is_warning(note)).cloned()
     }
 
     /// Heights of the lowest and the highest point \[m\]; none of a hull.
@@ -121,7 +118,8 @@ impl HydrostaticBody {
         let above = |row: &Hydrostatics| {
             let extents = [greatest[0] - least[0], greatest[1] - least[1], row.draught - least[2]];
             // Dimensions are measured on triangles, which lie inside the surface.
-            let found = row.above_one(extents.map(|extent| 2.0 * self.deviation / extent).iter().sum());
+            let slack = extents.map(|extent| 2.0 * self.deviation / extent.max(f64::MIN_POSITIVE));
+            let found = row.above_one(slack.iter().sum());
             (!found.is_empty()).then(|| format!("{} at {:.3} m", found.join(", "), row.draught))
         };
         let warnings = table.rows.iter().find_map(above).map(|found| {

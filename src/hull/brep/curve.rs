@@ -1,5 +1,6 @@
 //! Curves of edges and of the profiles of surfaces.
 
+use super::super::triangles::corners;
 use super::nearest::{Nearest, nearest};
 use super::{Motion, apart};
 use crate::spline::{BsplineCurve, KnotVector, cross, dot, length, minus};
@@ -52,6 +53,19 @@ fn is_closed(curve: &BsplineCurve<4>) -> bool {
     let (a, b) = curve.knots().domain();
     let size = curve.points().iter().map(|&p| length(minus(over(p), over(curve.points()[0])))).fold(0.0, f64::max);
     length(minus(over(curve.eval(a)), over(curve.eval(b)))) <= CLOSED * size
+}
+
+/// Breakpoints of knots between two parameters, and whether the spline may have a corner at each; those of a closed spline
+/// come again with every turn.
+pub(super) fn knots_between(knots: &KnotVector, is_closed: bool, [from, to]: [f64; 2]) -> Vec<(f64, bool)> {
+    let (a, b) = knots.domain();
+    let slack = 1e-9 * (b - a);
+    let turns = if is_closed { -2..=2 } else { 0..=0 };
+    let breaks = corners(knots);
+    let all = turns.flat_map(|turn| breaks.iter().map(move |&(t, corner)| (t + f64::from(turn) * (b - a), corner)));
+    let mut inner: Vec<(f64, bool)> = all.filter(|(t, _)| *t > from + slack && *t < to - slack).collect();
+    inner.dedup_by(|a, b| (a.0 - b.0).abs() <= slack);
+    inner
 }
 
 /// The point of homogeneous coordinates.
@@ -194,14 +208,7 @@ impl SpaceCurve {
                 (1..count as usize).map(|k| low + (high - low) * k as f64 / count).collect()
             }
             Self::Spline(curve) => {
-                let breaks = curve.knots().breakpoints();
-                let (a, b) = curve.knots().domain();
-                let slack = 1e-9 * (b - a);
-                let turns = if is_closed(curve) { -1..=1 } else { 0..=0 };
-                let all = turns.flat_map(|turn| breaks.iter().map(move |t| t + f64::from(turn) * (b - a)));
-                let mut inner: Vec<f64> = all.filter(|&t| t > low + slack && t < high - slack).collect();
-                inner.dedup_by(|a, b| (*a - *b).abs() <= slack);
-                inner
+                knots_between(curve.knots(), is_closed(curve), [low, high]).into_iter().map(|(t, _)| t).collect()
             }
         };
         let mut all: Vec<f64> = std::iter::once(low).chain(inner).chain([high]).collect();

@@ -1,5 +1,7 @@
 //! The nearest point of a curve, and of a surface, by the method of Gauss and Newton with a bound on its steps.
 
+use crate::spline::dot;
+
 /// A parameter and how far its point is from the wanted one.
 #[derive(Debug, Clone, Copy)]
 pub struct Nearest {
@@ -84,7 +86,6 @@ pub(super) fn nearest_of_surface(
     bounds: [Option<[f64; 2]>; 2],
     target: [f64; 3],
 ) -> ([f64; 2], f64) {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let clamped = |uv: [f64; 2]| [0, 1].map(|k: usize| bounds[k].map_or(uv[k], |[a, b]| uv[k].clamp(a, b)));
     let mut uv = clamped(start);
     let mut far = distance(surface(uv)[0], target);

@@ -1,6 +1,6 @@
 //! Surfaces of faces, and where on them a point of space lies.
 
-use super::curve::{Conic, SpaceCurve, over, slope_over};
+use super::curve::{Conic, SpaceCurve, knots_between, over, slope_over};
 use super::nearest::{nearest, nearest_of_surface};
 use super::{Motion, apart};
 use crate::spline::{BsplineSurface, KnotVector, cross, dot, length, minus};
@@ -342,20 +342,12 @@ impl<'a> Chart<'a> {
             let count = ((to - from) / width).ceil().clamp(1.0, 64.0);
             plain((0..=count as usize).map(|k| from + (to - from) * k as f64 / count).collect())
         };
-        let knots_between = |knots: &KnotVector| {
-            let (a, b) = knots.domain();
-            let slack = 1e-9 * (b - a);
-            let turns = if self.period[axis].is_some() { -2..=2 } else { 0..=0 };
-            let breaks = knots.breakpoints();
-            let all = turns.flat_map(|turn| {
-                breaks.iter().map(move |t| (t + f64::from(turn) * (b - a), knots.multiplicity(*t) >= knots.degree()))
-            });
-            let mut inner: Vec<(f64, bool)> = all.filter(|(t, _)| *t > from + slack && *t < to - slack).collect();
-            inner.dedup_by(|a, b| (a.0 - b.0).abs() <= slack);
+        let of_knots = |knots: &KnotVector| {
+            let inner = knots_between(knots, self.period[axis].is_some(), [from, to]);
             std::iter::once((from, true)).chain(inner).chain([(to, true)]).collect()
         };
         let of_curve = |curve: &SpaceCurve| match curve {
-            SpaceCurve::Spline(spline) => knots_between(spline.knots()),
+            SpaceCurve::Spline(spline) => of_knots(spline.knots()),
             _ => plain(curve.breaks(from, to)),
         };
         match (self.surface, axis) {
@@ -368,7 +360,7 @@ impl<'a> Chart<'a> {
                 let own = curve.breaks(a + from * width, a + to * width);
                 own.into_iter().map(|t| ((t - a) / width, true)).collect()
             }
-            (FaceSurface::Spline(surface), _) => knots_between(if axis == 0 { surface.u() } else { surface.v() }),
+            (FaceSurface::Spline(surface), _) => of_knots(if axis == 0 { surface.u() } else { surface.v() }),
             (FaceSurface::Offset { base, .. }, _) => {
                 let Self { surface: _, period, domain, slack, .. } = *self;
                 Chart { surface: base, period, domain, slack, seeds: Vec::new(), side: self.side }

@@ -25,8 +25,8 @@ pub(in super::super) trait Grid: Fn(&[f64], &[f64]) -> Vec<[f64; 3]> {}
 
 impl<F: Fn(&[f64], &[f64]) -> Vec<[f64; 3]>> Grid for F {}
 
-/// The bends of a surface, which the points of a grid of parameters give, in each span in u, and in v: the most by which halves of it leave their chords, and the
-/// diagonals of its cells theirs.
+/// The bends of a surface in each span in u, and in v: the most by which halves of it leave their chords, and the diagonals
+/// of its cells theirs. The points of a grid of parameters give the surface.
 pub(in super::super) struct Bends<G> {
     grid: G,
     breaks: [Vec<f64>; 2],
@@ -58,7 +58,7 @@ fn off(from: [f64; 3], middle: [f64; 3], to: [f64; 3]) -> f64 {
 }
 
 /// The breakpoints of knots, and whether there may be a corner.
-fn breaks(knots: &KnotVector) -> Vec<(f64, bool)> {
+pub(in super::super) fn corners(knots: &KnotVector) -> Vec<(f64, bool)> {
     knots.breakpoints().into_iter().map(|t| (t, knots.multiplicity(t) >= knots.degree())).collect()
 }
 
@@ -180,7 +180,7 @@ fn cut(breaks: &[f64], corners: &[bool], bends: &[(f64, f64)], deviation: f64, t
 
 /// The bends of a spline.
 fn bends(surface: &BsplineSurface<4>) -> Bends<impl Grid + '_> {
-    Bends::of(move |us, vs| grid(surface, us, vs), [breaks(surface.u()), breaks(surface.v())])
+    Bends::of(move |us, vs| grid(surface, us, vs), [corners(surface.u()), corners(surface.v())])
 }
 
 impl TriangleMesh {

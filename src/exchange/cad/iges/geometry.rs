@@ -49,8 +49,8 @@ pub(super) struct Geometry<'a> {
     pub(super) points: usize,
 }
 
-/// The motion of a transformation (124).
-fn motion(list: Option<&[f64]>) -> Motion {
+/// The motion of a transformation (124): three rows of a rotation and a translation.
+pub(super) fn motion(list: Option<&[f64]>) -> Motion {
     match list {
         Some([_, m @ ..]) if m.len() >= 12 => Motion([0, 4, 8].map(|k| [m[k], m[k + 1], m[k + 2], m[k + 3]])),
         _ => Motion::NONE,

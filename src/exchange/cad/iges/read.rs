@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use super::super::super::fault::{Faults, RecordFault};
 use super::super::surfaces::{CadCurve, CadSurfaces, MOST_POINTS, points_of, spline_curve, surface};
 use super::faces::faces;
+use super::geometry::motion;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
 /// Columns before the letter of a section.
@@ -261,21 +262,13 @@ fn numbers(list: &[Parameter]) -> Vec<f64> {
     list.iter().map(|p| if let Parameter::Number(value) = p { *value } else { f64::NAN }).collect()
 }
 
-/// A point moved by the parameters of a transformation (124): three rows of a rotation and a translation.
-fn moved(place: Option<&[f64]>, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    match place {
-        Some([_, m @ ..]) if m.len() >= 12 => [0, 4, 8].map(|k| m[k] * x + m[k + 1] * y + m[k + 2] * z + m[k + 3]),
-        _ => [x, y, z],
-    }
-}
-
 /// A line of its parameters.
 fn entity_110(faults: &mut Faults, line: usize, name: &str, list: &[f64], place: Option<&[f64]>) -> Option<CadCurve> {
     let Some([ax, ay, az, bx, by, bz]) = list.get(1..7) else {
         faults.add(Some(line), name, format!("{} parameters, expected 7", list.len()));
         return None;
     };
-    let points = [[*ax, *ay, *az], [*bx, *by, *bz]].map(|point| moved(place, point));
+    let points = [[*ax, *ay, *az], [*bx, *by, *bz]].map(|point| motion(place).point(point));
     if points.iter().flatten().all(|c| c.is_finite()) {
         return Some(CadCurve { line, points: points.to_vec() });
     }
@@ -318,7 +311,8 @@ pub(super) fn spline_126(
         faults.add(Some(line), name, format!("{} parameters, expected {}", list.len(), net + 3 * count));
         return None;
     }
-    let of = |k: usize| (list[weights + k], moved(place, [0, 1, 2].map(|axis| list[net + 3 * k + axis])));
+    let place = motion(place);
+    let of = |k: usize| (list[weights + k], place.point([0, 1, 2].map(|axis| list[net + 3 * k + axis])));
     let end = |k: usize| list.get(net + 3 * count + k).copied().unwrap_or(0.0);
     let found = spline_curve(faults, line, name, degree, list[knots..weights].to_vec(), (0..count).map(of))?;
     let (a, b) = found.knots().domain();
@@ -361,7 +355,8 @@ pub(super) fn entity_128(
         faults.add(Some(line), name, format!("{} parameters, expected {}", list.len(), net + 3 * count));
         return None;
     }
-    let of = |k: usize| (list[weights + k], moved(place, [0, 1, 2].map(|axis| list[net + 3 * k + axis])));
+    let place = motion(place);
+    let of = |k: usize| (list[weights + k], place.point([0, 1, 2].map(|axis| list[net + 3 * k + axis])));
     let order = (0..rows).flat_map(|i| (0..columns).map(move |j| j * rows + i));
     let knots = [list[u..v].to_vec(), list[v..weights].to_vec()];
     let found = surface(faults, Some(line), name, [m1, m2], knots, order.map(of))?;

@@ -49,6 +49,20 @@ fn knots(multiplicities: &Value, values: &Value) -> Option<Vec<f64>> {
     fits.then(|| times.iter().zip(&values).flat_map(|(&t, &value)| std::iter::repeat_n(value, t as usize)).collect())
 }
 
+/// The keyword of a spline of any form, the parameters that all forms have, and its own. Alone an instance has a name before
+/// the `count` parameters of all; among others it has its own only.
+fn spline_parts<'a>(
+    instance: &'a Instance,
+    keywords: [&'static str; 4],
+    (common, count): (&str, usize),
+) -> Option<(&'static str, &'a [Value], &'a [Value])> {
+    let (keyword, own) = keywords.into_iter().find_map(|keyword| Some((keyword, instance.part(keyword)?)))?;
+    match instance.part(common) {
+        Some(form) => Some((keyword, form, own)),
+        None => Some((keyword, own.get(1..=count)?, own.get(1 + count..)?)),
+    }
+}
+
 /// Knots that a keyword stands for: of a spline of Bezier pieces, uniform ones, and uniform ones with clamped ends.
 fn implied(keyword: &str, degree: usize, count: usize) -> Option<Vec<f64>> {
     if keyword.starts_with("UNIFORM") {
@@ -143,13 +157,7 @@ impl Geometry<'_> {
             return SpaceCurve::polyline(&points?);
         }
         let keywords = ["B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE", "UNIFORM_CURVE", "QUASI_UNIFORM_CURVE"];
-        let keyword = keywords.into_iter().find(|keyword| instance.part(keyword).is_some())?;
-        let whole_part = instance.part(keyword)?;
-        // Alone it has a name first; among others its own parameters only.
-        let (form, own) = match instance.part("B_SPLINE_CURVE") {
-            Some(form) => (form, whole_part),
-            None => (whole_part.get(1..6)?, whole_part.get(6..)?),
-        };
+        let (keyword, form, own) = spline_parts(instance, keywords, ("B_SPLINE_CURVE", 5))?;
         let [degree, Value::List(list), ..] = form else { return None };
         let degree = whole(degree, 100)?;
         self.counted(instance.line, &name, list.len())?;
@@ -258,12 +266,7 @@ impl Geometry<'_> {
         let instance = instances.get(&number)?;
         let name = format!("#{number}");
         let keywords = ["B_SPLINE_SURFACE_WITH_KNOTS", "BEZIER_SURFACE", "UNIFORM_SURFACE", "QUASI_UNIFORM_SURFACE"];
-        let keyword = keywords.into_iter().find(|keyword| instance.part(keyword).is_some())?;
-        let whole_part = instance.part(keyword)?;
-        let (form, own) = match instance.part("B_SPLINE_SURFACE") {
-            Some(form) => (form, whole_part),
-            None => (whole_part.get(1..8)?, whole_part.get(8..)?),
-        };
+        let (keyword, form, own) = spline_parts(instance, keywords, ("B_SPLINE_SURFACE", 7))?;
         let [u_degree, v_degree, Value::List(rows), ..] = form else { return None };
         let degrees = [whole(u_degree, 100)?, whole(v_degree, 100)?];
         let mut net = Vec::new();

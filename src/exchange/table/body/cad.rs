@@ -77,11 +77,7 @@ fn of_faces(
         );
         return (Vec::new(), 0.0);
     }
-    let triangles = made.meshes[1].triangles.len();
-    let given = Given::plain(unit);
-    let deviation = made.deviation * given.metres(settings);
-    problems.note(format!("within {deviation:.1e} m of them: {triangles} triangles"));
-    (framed(made.meshes.to_vec(), settings, &given, problems), deviation)
+    in_frame(made.meshes, made.deviation, &Given::plain(unit), settings, problems)
 }
 
 /// Whole surfaces, in two nested meshes.
@@ -98,11 +94,8 @@ fn of_surfaces(
     ));
     match TriangleMesh::nested(surfaces, DEVIATION * extent(surfaces), ENOUGH) {
         Ok((nested, deviation)) => {
-            let triangles = nested[1].triangles.len();
             let given = Given { surfaces: true, ..Given::plain(unit) };
-            let deviation = deviation * given.metres(settings);
-            problems.note(format!("within {deviation:.1e} m of them: {triangles} triangles"));
-            (framed(nested.to_vec(), settings, &given, problems), deviation)
+            in_frame(nested, deviation, &given, settings, problems)
         }
         Err(count) => {
             let message = format!(
@@ -113,6 +106,19 @@ fn of_surfaces(
             (Vec::new(), 0.0)
         }
     }
+}
+
+/// Two nested meshes in the ship's frame, and what they leave the surfaces by, `deviation` in units of the file \[m\].
+fn in_frame(
+    nested: [TriangleMesh; 2],
+    deviation: f64,
+    given: &Given,
+    settings: &Settings,
+    problems: &mut Problems,
+) -> (Vec<TriangleMesh>, f64) {
+    let deviation = deviation * given.metres(settings);
+    problems.note(format!("within {deviation:.1e} m of them: {} triangles", nested[1].triangles.len()));
+    (framed(nested.to_vec(), settings, given, problems), deviation)
 }
 
 /// The longest extent of the control points.
