@@ -10,6 +10,9 @@
 //! answer. By duality s_l = 0 as long as sum_k z_k v_k, the charge of the line, is below the price: one convex program
 //! finds the lines that are worth it, where a program with all of them has no solution and its proof only names some
 //! that contradict each other.
+//!
+//! It is solved for moves from that net, in units of the least price, so that its accuracy is one of what the lines cost.
+//! Against the whole objective an accuracy of 1e-4 left DTMB 5415 with 272 changes of sign for 162.
 
 use super::model::{Limit, Reduced, value};
 use super::program::Program;
@@ -19,8 +22,8 @@ use crate::qp::{Interior, Problem, ProblemError, Settings, SparseRows, Status};
 /// take 47 at most on the shared tables).
 const ITERATIONS: usize = 70;
 
-/// Accuracy of the choice.
-const ACCURACY: f64 = 1e-7;
+/// Accuracy of the choice, over what it costs.
+const ACCURACY: f64 = 1e-4;
 
 /// A line that keeps more than this part is not worth its price.
 const KEEPS: f64 = 0.02;
@@ -37,28 +40,35 @@ pub(super) fn worth_it(
 ) -> Result<(Option<Vec<bool>>, Option<Interior>), ProblemError> {
     let old = &program.problem;
     let (n, count) = (old.linear.len(), lines.len());
-    let widened = |rows: &SparseRows| {
+    let widened = |rows: &SparseRows, factor: f64| {
         let mut wide = SparseRows::new(n + count);
         for k in 0..rows.row_count() {
-            wide.push(rows.entries(k));
+            wide.push(rows.entries(k).map(|(column, value)| (column, factor * value)));
         }
         wide
     };
+    // About the net, and in units of the least price: what is left of the objective is what the lines cost.
+    let unit = prices.iter().copied().fold(f64::INFINITY, f64::min);
+    let centre = reduced.unknowns_of(net);
+    let slopes = old.quadratic.apply(&centre).into_iter().zip(&old.linear).map(|(slope, linear)| slope + linear);
+    let there = old.rows.apply(&centre);
+    let moved = |limits: &[f64]| limits.iter().zip(&there).map(|(limit, value)| limit - value).collect();
     let mut problem = Problem {
-        quadratic: widened(&old.quadratic),
-        linear: old.linear.iter().copied().chain(prices.iter().copied()).collect(),
-        rows: widened(&old.rows),
-        lower: old.lower.clone(),
-        upper: old.upper.clone(),
+        quadratic: widened(&old.quadratic, unit.recip()),
+        linear: slopes.chain(prices.iter().copied()).map(|slope| slope / unit).collect(),
+        rows: widened(&old.rows, 1.0),
+        lower: moved(&old.lower),
+        upper: moved(&old.upper),
     };
     for (l, limits) in (n..).zip(lines) {
         problem.quadratic.push([(l, 0.0)]);
         for limit in limits {
             let missed = missed(limit, net);
-            let (row, offset) = reduced.row(&limit.row);
+            let (row, _) = reduced.row(&limit.row);
             problem.rows.push(row.into_iter().chain([(l, missed)]).filter(|(_, value)| *value != 0.0));
-            problem.lower.push(limit.lower - offset);
-            problem.upper.push(limit.upper - offset);
+            let now = value(&limit.row, net);
+            problem.lower.push(limit.lower - now);
+            problem.upper.push(limit.upper - now);
         }
         problem.rows.push([(l, 1.0)]);
         problem.lower.push(0.0);
@@ -67,15 +77,19 @@ pub(super) fn worth_it(
     let answer = problem.solve(&Settings { tolerance: ACCURACY, proof: false, ..settings.clone() })?;
     let parts = (answer.status == Status::Optimal).then_some(&answer.x[n..]);
     let chosen = parts.map(|parts| parts.iter().map(|part| *part <= KEEPS).collect());
-    Ok((chosen, answer.interior.map(|point| without_parts(point, n, old.rows.row_count(), lines))))
-}
-
-/// A point without what the lines keep: the variables after the first `n`, and the last row of each line.
-fn without_parts(Interior { mut x, rows }: Interior, n: usize, old: usize, lines: &[Vec<&Limit>]) -> Interior {
-    x.truncate(n);
-    let is_sign = lines.iter().flat_map(|limits| limits.iter().map(|_| true).chain([false]));
-    let kept = std::iter::repeat_n(true, old).chain(is_sign);
-    Interior { x, rows: rows.into_iter().zip(kept).filter_map(|(row, kept)| kept.then_some(row)).collect() }
+    let absolute = |Interior { mut x, rows }: Interior| {
+        // Without what the lines keep: the variables after the first n, and the last row of each line.
+        x.truncate(n);
+        x.iter_mut().zip(&centre).for_each(|(x, centre)| *x += centre);
+        let is_sign = lines.iter().flat_map(|limits| limits.iter().map(|_| true).chain([false]));
+        let kept = std::iter::repeat_n(true, old.rows.row_count()).chain(is_sign);
+        let row = |row: Option<[[f64; 2]; 2]>| row.map(|sides| sides.map(|[slack, z]| [slack, unit * z]));
+        Interior {
+            x,
+            rows: rows.into_iter().zip(kept).filter(|(_, kept)| *kept).map(|(sides, _)| row(sides)).collect(),
+        }
+    };
+    Ok((chosen, answer.interior.map(absolute)))
 }
 
 /// By how much a net is below (> 0) or above (< 0) a limit.

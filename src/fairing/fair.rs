@@ -20,6 +20,7 @@ use super::program::{Program, RowName, Solved, Wishes};
 use super::relinearise::{ON_TARGET, Settling};
 use super::rules::{counted_lines, rule_limits, turned};
 use super::smoothing::{Smoothed, Smoother, Trial};
+use super::strength::Few;
 use super::surface::FairSurface;
 use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
@@ -65,8 +66,8 @@ pub struct FairSettings {
     pub signs: bool,
     /// Dearest of them, in units of sigma^2.
     pub price: f64,
-    /// Factor on the least inflections of a field above which their price rises; none: never.
-    pub near_least: Option<f64>,
+    /// When inflections are few: others are removed until they are; none: those at the price stand.
+    pub few: Option<Few>,
     /// Changes of sign of curvature of the surface through the table on stations and waterlines.
     pub before: usize,
     /// Lines whose inflections are counted.
@@ -336,7 +337,7 @@ pub fn fair_prepared(
             lines,
             seen: settings.seen,
             price: settings.price,
-            near_least: settings.near_least,
+            few: settings.few,
             before: settings.before,
             least_tolerance: settings.least_tolerance,
             solver: &settings.solver,

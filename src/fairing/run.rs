@@ -234,7 +234,7 @@ impl<'a> Run<'a> {
             tolerances: job.tolerances(&surface),
             signs: job.signs,
             price: job.price.unwrap_or(PRICE),
-            near_least: None,
+            few: None,
             before: 0,
             lines: stations.chain(waterlines).collect(),
             seen: bump(before.particulars().length_between_perpendiculars, quantum),
@@ -286,7 +286,7 @@ impl<'a> Run<'a> {
         self.settings.through = fairness.is_raw().then(|| (0.5 * self.quantum).max(LEAST_THROUGH * breadth));
         self.settings.price = self.job.price.unwrap_or(PRICE) * fairness.on_the_price();
         // Whoever names a price means it.
-        self.settings.near_least = fairness.near_least().filter(|_| self.job.price.is_none());
+        self.settings.few = fairness.few().filter(|_| self.job.price.is_none());
         self.prepared = self.prepared.graded(&mut self.surface, &self.settings)?;
         Ok(self)
     }

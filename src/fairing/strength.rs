@@ -6,10 +6,13 @@
 //! weight 10^(0.6 (g - 5)) below 5,  10^(0.3 (g - 5)) above,    price 10^(0.6 (g - 5)).
 //! ```
 //!
+//! From 5 on, a hull with many inflections for its proved least loses more of them ([`Few`]): what these may cost rises by
+//! 10^(0.6 (g - 5)), and the factor on the least falls from 1.5 to 1.15.
+//!
 //! The weight is never less than that whose residuals are the rounding of the table. Grade 0 is of another kind: the fair
 //! surface within half the resolution of the table. Where weight and price rise alike above 5, more and more offsets stop
-//! at their tolerance and lines bend about them: a Series 60 had 44, 44 and 61 changes of sign at 5, 8 and 10, and has 44,
-//! 35 and 35. With a price of 10^(g - 5) it has 30 at 10, but Series 60 Cb 0.60 has 13 times the energy.
+//! at their tolerance and lines bend about them: a Series 60 had 44, 44 and 61 changes of sign at 5, 8 and 10, and has 37,
+//! 34 and 34. With a price of 10^(g - 5) it has 30 at 10, but Series 60 Cb 0.60 has 13 times the energy.
 
 use std::fmt;
 
@@ -77,6 +80,13 @@ impl Fairness {
         self.promises_a_fairer_hull().then_some(NEAR_LEAST[0] + above * (NEAR_LEAST[1] - NEAR_LEAST[0]))
     }
 
+    /// When inflections are few; none below the default.
+    #[must_use]
+    pub fn few(self) -> Option<Few> {
+        let dearer = 10f64.powf(PRICE * (self.0 - Self::default().0));
+        self.near_least().map(|near_least| Few { near_least, dearer })
+    }
+
     /// The weight over that of the default.
     #[must_use]
     pub fn on_the_weight(self) -> f64 {
@@ -89,6 +99,15 @@ impl Fairness {
     pub fn on_the_price(self) -> f64 {
         10f64.powf(PRICE * (self.0 - Self::default().0))
     }
+}
+
+/// When the inflections of a hull are few.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Few {
+    /// Greatest factor on the proved least of them, and 2 more.
+    pub near_least: f64,
+    /// Factor on what one may cost to be removed where there are more.
+    pub dearer: f64,
 }
 
 /// Whether a hull with this many inflections has many for its proved least: more than `factor` times those, and 2.
@@ -127,6 +146,14 @@ mod tests {
         for (grade, [weight, price]) in [(3.0, [-1.2, -1.2]), (5.0, [0.0, 0.0]), (10.0, [1.5, 3.0])] {
             let found = factors(grade);
             assert!((found[0] - weight).abs() < 1e-12 && (found[1] - price).abs() < 1e-12, "{grade} {found:?}");
+        }
+        assert!(Fairness::new(4.9).unwrap().few().is_none());
+        for (grade, near_least, dearer) in [(5.0, 1.5, 1.0), (10.0, 1.15, 1e3)] {
+            let few = Fairness::new(grade).unwrap().few().unwrap();
+            assert!(
+                (few.near_least - near_least).abs() < 1e-12 && (few.dearer / dearer - 1.0).abs() < 1e-12,
+                "{few:?}"
+            );
         }
         let words = [0.0, 5.0, 6.5].map(|grade| Fairness::new(grade).unwrap().to_string());
         assert_eq!(words, ["0 (raw)", "5 (fair)", "6.5"]);
