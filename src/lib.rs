@@ -1,5 +1,27 @@
-//! loftsman generates, fits and fairs ship hulls as B-spline surfaces. Displacement, block coefficient, midship
-//! coefficient and centre of buoyancy are met exactly. It computes their hydrostatics and drawings.
+//! loftsman generates, fits and fairs ship hulls as B-spline surfaces, and computes their hydrostatics and drawings.
+//!
+//! Fairing is one convex program. For control values c \[m\], offsets y with rows M, standard deviations S of their errors,
+//! and an energy P of fourth derivatives
+//!
+//! ```text
+//! minimise    |S^-1 (M c - y)|^2 + w c'P c
+//! subject to  volume, centre of volume and areas of c as stated
+//!             |(M c - y)_i| <= tolerance_i
+//!             signs of curvature along stations and waterlines
+//! ```
+//!
+//! Units are metres and tonnes. The frame is right-handed: x forward from the aft perpendicular, y to port, z up from the base
+//! line. [`prelude`] has every job in a few lines:
+//!
+//! ```no_run
+//! use loftsman::prelude::*;
+//!
+//! # fn main() -> Result<(), Failure> {
+//! let faired = fair("offsets.csv", &[("dimensions.T", "6.502"), ("tolerance.table", "20 mm")])?;
+//! println!("{}", faired.headline());
+//! write(&faired.files, "out/faired")
+//! # }
+//! ```
 //!
 //! # A hull from particulars
 //!
@@ -87,6 +109,7 @@ pub mod hydrostatics;
 pub mod numeric;
 pub mod parametric;
 pub mod plot;
+pub mod prelude;
 pub mod qp;
 pub mod report;
 pub mod spline;

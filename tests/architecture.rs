@@ -3,7 +3,7 @@
 use crate::support::{carried, read_text, sources};
 
 /// Every module with its floor.
-const FLOORS: [(&str, usize); 14] = [
+const FLOORS: [(&str, usize); 15] = [
     ("numeric", 0),
     ("units", 0),
     ("spline", 1),
@@ -17,6 +17,7 @@ const FLOORS: [(&str, usize); 14] = [
     ("plot", 5),
     ("report", 6),
     ("cli", 7),
+    ("prelude", 7),
     ("main", 8),
 ];
 

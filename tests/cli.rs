@@ -315,3 +315,24 @@ fn designs_of_one_name_do_not_replace_each_other() {
     assert!(stderr(&output).contains(&format!("{a} and {b} would both be written to ")), "{}", stderr(&output));
     assert!(!Path::new(&out).exists());
 }
+
+/// Completions name the commands and their options, manual pages have one file a command; the same call gives the same bytes.
+#[test]
+fn completions_and_manual_pages() {
+    let printed = stdout(&program(&["completions", "bash"]));
+    assert!(printed.contains("fair-curve") && printed.contains("--tolerance"));
+    let path = folder("completions");
+    let path = path.to_str().unwrap();
+    let output = program(&["completions", "-o", path]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let names = names_in(path);
+    let pages = names.iter().filter(|name| name.ends_with(".1")).count();
+    assert!(pages > 16 && names.len() == pages + 5, "{names:?}");
+    assert!(["_loftsman", "loftsman.1", "loftsman-fair.1"].iter().all(|name| names.iter().any(|other| other == name)));
+    assert_eq!(read_text(Path::new(path).join("loftsman.bash")), printed);
+    let page = read_text(Path::new(path).join("loftsman-fair.1"));
+    assert!(page.starts_with(".ie") && page.contains("loftsman\\-fair") && page.contains("\\-\\-tolerance"), "{page}");
+    // Nothing is overwritten, and a shell or a folder must be named.
+    assert_eq!(program(&["completions", "-o", path]).status.code(), Some(6));
+    assert_eq!(program(&["completions"]).status.code(), Some(2));
+}

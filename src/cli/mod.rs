@@ -2,6 +2,7 @@
 //! returned by a library function.
 
 mod check;
+mod completions;
 mod convert;
 mod export;
 mod fair;
@@ -83,6 +84,8 @@ enum Command {
     Validate(validate::Arguments),
     /// Compare the analytic bodies with their closed forms
     SelfTest(self_test::Arguments),
+    /// Completions of a shell; with -o those of all shells, and manual pages
+    Completions(completions::Arguments),
 }
 
 /// A list of lengths [m] on the command line.
@@ -157,6 +160,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Inspect(arguments) => inspect::run(arguments),
         Command::Validate(arguments) => validate::run(arguments),
         Command::SelfTest(arguments) => self_test::run(arguments),
+        Command::Completions(arguments) => completions::run(arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

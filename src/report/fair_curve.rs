@@ -55,6 +55,23 @@ pub struct CurveJob {
     pub settings: CurveSettings,
 }
 
+impl CurveJob {
+    /// The points of a file in metres, with nothing held and nothing locked.
+    #[must_use]
+    pub fn new(path: &Path) -> Self {
+        Self {
+            path: path.to_owned(),
+            unit: Notation::Metres,
+            locks: Vec::new(),
+            knuckles: Vec::new(),
+            area: None,
+            centroid: None,
+            keep_suspects: false,
+            settings: CurveSettings::default(),
+        }
+    }
+}
+
 /// A job that was done.
 #[derive(Debug, Clone)]
 pub struct FairedCurve {

@@ -29,6 +29,12 @@ pub(super) fn line_name(cut: &Cut) -> String {
 }
 
 impl FairOutputs {
+    /// The first line of the page: whether the hull is fairer, by how much, and what it cost.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        super::fair_short::headline(&self.outcome)
+    }
+
     /// What was had and is not what was hoped for, in words for the one who reads nothing else: lines that bend more
     /// often than before, all together or single ones.
     #[must_use]

@@ -28,6 +28,12 @@ pub struct ReportSettings {
     pub date: Option<String>,
 }
 
+impl Default for ReportSettings {
+    fn default() -> Self {
+        Self { dots_per_inch: 150.0, sheet: Sheet::A3, combs: String::new(), date: None }
+    }
+}
+
 /// Digits of a hash in title blocks.
 const HASH: usize = 8;
 

@@ -1,0 +1,145 @@
+//! README and book: their links lead somewhere, their sentences are short, and every page is in the summary.
+
+use std::path::{Path, PathBuf};
+
+use crate::support::{carried, program, read_text, stdout};
+
+/// Most words of a sentence.
+const WORDS: usize = 40;
+
+/// Most lines of the README.
+const LINES: usize = 120;
+
+/// The Markdown files of a folder and of those in it.
+fn pages(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(pages(&path));
+        } else if path.extension().is_some_and(|ending| ending == "md") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// README, the documents beside it and all pages of the book.
+fn documents() -> Vec<PathBuf> {
+    let mut documents = vec![carried("README.md")];
+    documents.extend(["ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md"].map(carried));
+    documents.extend(pages(&carried("docs/src")));
+    documents
+}
+
+/// The links of a text that are not of the web: `[words](target)` outside of code blocks.
+fn links(text: &str) -> Vec<String> {
+    let mut block = false;
+    let mut found = Vec::new();
+    for line in text.lines() {
+        block ^= line.starts_with("```");
+        let targets = line.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        found.extend(targets.filter(|target| !block && !target.contains("://")).map(ToOwned::to_owned));
+    }
+    found
+}
+
+/// Sentences of a text without its code blocks: of paragraphs, of items of lists and of cells of tables.
+fn sentences(text: &str) -> Vec<String> {
+    let mut pieces = vec![String::new()];
+    let mut block = false;
+    for line in text.lines() {
+        let fence = line.trim_start().starts_with("```");
+        let own = fence || block || line.trim().is_empty() || line.starts_with(['#', '|']);
+        let item = line.trim_start().starts_with("* ") || line.trim_start().starts_with("- ");
+        if own || item {
+            pieces.push(String::new());
+        }
+        block ^= fence;
+        if line.starts_with('|') && !block {
+            pieces.extend(line.split('|').map(ToOwned::to_owned));
+            pieces.push(String::new());
+        } else if !own && let Some(last) = pieces.last_mut() {
+            last.push(' ');
+            last.push_str(line.trim());
+        }
+    }
+    let ends = |piece: &String| {
+        let marked = [". ", "? ", "! ", ": "].iter().fold(piece.clone(), |text, end| text.replace(end, ".\n"));
+        marked.lines().map(ToOwned::to_owned).collect::<Vec<_>>()
+    };
+    pieces.iter().flat_map(ends).collect()
+}
+
+/// What is too long, by the name of its file.
+fn long(name: &str, text: &str) -> Vec<String> {
+    let words = |sentence: &String| sentence.split_whitespace().count();
+    let too_long = sentences(text).into_iter().filter(|sentence| words(sentence) > WORDS);
+    too_long.map(|sentence| format!("{name}: {} words: {}", words(&sentence), sentence.trim())).collect()
+}
+
+#[test]
+fn links_lead_somewhere() {
+    for document in documents() {
+        let folder = document.parent().unwrap();
+        for link in links(&read_text(&document)) {
+            let file = link.split('#').next().unwrap_or_default();
+            assert!(folder.join(file).exists(), "{}: {link}", document.display());
+        }
+    }
+}
+
+#[test]
+fn every_page_is_in_the_summary() {
+    let folder = carried("docs/src");
+    let listed: Vec<PathBuf> =
+        links(&read_text(folder.join("SUMMARY.md"))).iter().map(|link| folder.join(link)).collect();
+    let pages: Vec<PathBuf> = pages(&folder).into_iter().filter(|page| !page.ends_with("SUMMARY.md")).collect();
+    assert!(pages.len() > 15);
+    for page in pages {
+        assert_eq!(listed.iter().filter(|other| **other == page).count(), 1, "{}", page.display());
+    }
+}
+
+#[test]
+fn the_readme_is_short_and_no_sentence_is_long() {
+    let lines = read_text(carried("README.md")).lines().count();
+    assert!(lines <= LINES, "README.md: {lines} lines");
+    let faults: Vec<String> =
+        documents().iter().flat_map(|document| long(&document.display().to_string(), &read_text(document))).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn no_sentence_of_the_help_is_long() {
+    let help = stdout(&program(&["--help"]));
+    let (_, list) = help.split_once("Commands:").unwrap();
+    let names = list.split("\n\n").next().unwrap().lines().filter_map(|line| line.strip_prefix("  "));
+    let commands = names.filter(|line| !line.starts_with(' ')).filter_map(|line| line.split(' ').next());
+    let faults: Vec<String> = commands
+        .flat_map(|command| {
+            // An option begins further out than what is said of it.
+            let text =
+                stdout(&program(&["help", command])).replace("\n  -", "\n\n  -").replace("\n      -", "\n\n      -");
+            long(command, &text)
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn the_readme_shows_what_fair_prints() {
+    let table = carried("tests/data/series60_cb060/offsets.csv");
+    let headline = loftsman::prelude::fair(table, &[("dimensions.T", "6.502")]).unwrap().headline();
+    assert!(read_text(carried("README.md")).contains(&headline), "{headline}");
+}
+
+#[test]
+fn a_sentence_is_found() {
+    let text = "# Head\n\nOne two.\nThree four: five.\n\n```\nnot this\n```\n* item one\n| a b | c |\n";
+    let found: Vec<String> =
+        sentences(text).into_iter().map(|s| s.trim().to_owned()).filter(|s| !s.is_empty()).collect();
+    assert_eq!(found, ["One two.", "Three four.", "five.", "item one", "a b", "c"]);
+    assert_eq!(links("[a](b.md) and [c](d/e.md#f) [w](https://x)"), ["b.md", "d/e.md#f"]);
+}
