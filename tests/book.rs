@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use loftsman::config::{JOB_KEYS, KEYS, Key, METHOD_KEYS};
+use loftsman::hydrostatics::QUANTITIES;
+
 use crate::support::{carried, program, read_text, stdout};
 
 /// Most words of a sentence.
@@ -126,6 +129,68 @@ fn no_sentence_of_the_help_is_long() {
         })
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// A page of keys, a table of them for each table of the file.
+fn keys(title: &str, about: &str, keys: &[Key]) -> String {
+    let mut page = format!("# {title}\n\n{about}\n");
+    let mut tables: Vec<&str> = Vec::new();
+    for key in keys {
+        if !tables.contains(&key.table) {
+            tables.push(key.table);
+        }
+    }
+    for table in tables {
+        let head = if table.is_empty() { "At the top of the file".to_owned() } else { format!("`[{table}]`") };
+        page.push_str(&format!("\n## {head}\n\n| key | value | meaning |\n|---|---|---|\n"));
+        for key in keys.iter().filter(|key| key.table == table) {
+            let families = match key.families {
+                [] => String::new(),
+                families => format!(" Family {}.", families.join(", ")),
+            };
+            let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
+            let (kind, meaning) = (cell(&key.kind.words()), cell(key.description));
+            page.push_str(&format!("| `{}` | {kind} | {meaning}{families} |\n", key.name));
+        }
+    }
+    page
+}
+
+/// Pages that are made from the lists of the program.
+fn made() -> [(&'static str, String); 4] {
+    let quantities =
+        QUANTITIES.iter().map(|q| format!("| `{}` | {} | {} | {} |\n", q.key, q.name, q.unit, q.definition));
+    let quantities = quantities.collect::<String>();
+    [
+        (
+            "design-keys",
+            keys("Keys of the design file", "`generate` reads them; `loftsman new` prints them with comments.", KEYS),
+        ),
+        (
+            "job-keys",
+            keys("Keys of the job file", "`fair` reads them; options of the command override them.", JOB_KEYS),
+        ),
+        ("method-keys", keys("Keys of the method file", "`fit` reads them.", METHOD_KEYS)),
+        (
+            "quantities",
+            format!(
+                "# Hydrostatic quantities\n\nKeys are ITTC codes. They head the columns of `hydrostatics.csv` and are the keys of its \
+                 JSON.\n\n| key | quantity | unit | definition |\n|---|---|---|---|\n{quantities}"
+            ),
+        ),
+    ]
+}
+
+/// `LOFTSMAN_GOLDEN=1` writes them.
+#[test]
+fn pages_of_lists_are_those_of_the_program() {
+    for (name, page) in made() {
+        let path = carried("docs/src/reference").join(format!("{name}.md"));
+        if std::env::var_os("LOFTSMAN_GOLDEN").is_some() {
+            std::fs::write(&path, &page).unwrap();
+        }
+        assert!(read_text(&path) == page, "{}: LOFTSMAN_GOLDEN=1 writes it anew", path.display());
+    }
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn completions(shell: Shell) -> OutputFile {
 
 /// The manual page of a command.
 fn manual_page(command: Command) -> Result<OutputFile, Failure> {
-    let name = format!("{}.1", command.get_name());
+    let name = format!("{}.1", command.get_display_name().unwrap_or_else(|| command.get_name()));
     let mut contents = Vec::new();
     let written = clap_mangen::Man::new(command).render(&mut contents);
     written.map_err(|error| Failure::Internal(format!("manual page {name}: {error}")))?;
@@ -48,10 +48,7 @@ fn manual_page(command: Command) -> Result<OutputFile, Failure> {
 fn files() -> Result<Vec<OutputFile>, Failure> {
     let mut program = Cli::command();
     program.build();
-    let commands = program.get_subcommands().filter(|command| command.get_name() != "help").map(|command| {
-        let name = format!("loftsman-{}", command.get_name());
-        command.clone().name(name).disable_help_subcommand(true)
-    });
+    let commands = program.get_subcommands().filter(|command| command.get_name() != "help").cloned();
     let pages = std::iter::once(program.clone()).chain(commands).map(manual_page);
     Shell::value_variants().iter().map(|&shell| Ok(completions(shell))).chain(pages).collect()
 }

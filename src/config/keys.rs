@@ -57,6 +57,14 @@ pub enum Kind {
     Figures,
 }
 
+impl Kind {
+    /// What may stand there, in words.
+    #[must_use]
+    pub fn words(self) -> String {
+        super::value::expected(self)
+    }
+}
+
 /// One key of the design file.
 #[derive(Debug, Clone, Copy)]
 pub struct Key {
