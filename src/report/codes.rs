@@ -133,7 +133,7 @@ pub fn codes_page() -> String {
     };
     let rows: String = CODES.iter().map(row).collect();
     format!(
-        "# Message codes\n\nEvery message begins with its code: `E` is an error, `W` a warning, `N` a note. The command \
+        "# Message codes\n\nMessages begin with a code: `E` is an error, `W` a warning, `N` a note. The command \
          `loftsman explain E301` prints the row of a code. The program makes this page from its list of codes.\n\n\
          | code | title | cause | example | remedy |\n|---|---|---|---|---|\n{rows}"
     )

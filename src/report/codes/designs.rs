@@ -56,7 +56,7 @@ pub(super) const DESIGNS: [Explanation; 50] = [
         code: "E107",
         title: "Waterplane coefficient out of reach",
         cause: "Cwp is given, and no waterline reaches it with this parallel body and these ends.",
-        example: "`Cwp = 0.80` with `parallel_body = [0.125, 0.875]`: the parallel body alone is fuller.",
+        example: "`Cwp = 0.80` with `parallel_body = [0.125, 0.875]` on Lpp = 80 m: 0.8905 to 1.0000 are possible.",
         remedy: "Give a Cwp within the limits of the message, or move the ends of the parallel body.",
     },
     Explanation {
