@@ -22,7 +22,7 @@ fn exit_codes_tell_what_went_wrong() {
 
     let bad = generate(&write("bad.toml", b"[dimensions]\nLpp = 80\n[form]\nCpw = 1\nCm = \"x\"\n"));
     assert_eq!(bad.status.code(), Some(3));
-    assert_eq!(stderr(&bad).lines().count(), 2, "{}", stderr(&bad));
+    assert_eq!(stderr(&bad).lines().filter(|line| line.contains("bad.toml:")).count(), 2, "{}", stderr(&bad));
     assert!(stderr(&bad).contains("bad.toml:4:1 form.Cpw is not a key of a design. Did you mean Cwp?"));
     assert!(bad.stdout.is_empty());
     let latin = generate(&write("latin.toml", b"a = 1\n# \xe9\n"));
@@ -35,7 +35,7 @@ fn exit_codes_tell_what_went_wrong() {
     );
     let record = generate(&write("ship.hgf", b"Name,LOA,BOA,D,HullData\nx,1,y,3,1 2\n"));
     assert_eq!(record.status.code(), Some(3));
-    assert!(stderr(&record).lines().all(|line| line.starts_with("E130 ")), "{}", stderr(&record));
+    assert_eq!(stderr(&record).lines().filter(|line| line.starts_with("E130 ")).count(), 2, "{}", stderr(&record));
     assert!(stderr(&record).contains("ship.hgf:2 BOA: 'y' is not a number"), "{}", stderr(&record));
     assert!(stderr(&record).contains("ship.hgf:2 HullData: 2 numbers"), "{}", stderr(&record));
     let hull = program(&["hydro", &write("hull.json", b"{\"format\": 1}"), "--draughts", "1"]);

@@ -1,5 +1,5 @@
-//! Every code of a message is provoked by a test, and every code that the head of a file explains is one of the
-//! program; and the messages of whole jobs that no other test provokes.
+//! Every code of a message is explained in `CODES`, which has no other, and is provoked by a test; and the messages of
+//! whole jobs that no other test provokes.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,11 +9,12 @@ use loftsman::exchange::{ReadTable, TableProblem, read_table};
 use loftsman::fairing::curve::CurveSettings;
 use loftsman::qp::Status;
 use loftsman::report::{
-    CurveJob, Failure, check_table, fair_outputs, faired_curve, fit_outputs, read_fair, read_fit, read_source,
+    CODES, CurveJob, Explanation, Failure, check_table, codes_page, fair_outputs, faired_curve, fit_outputs, read_fair,
+    read_fit, read_source,
 };
 use loftsman::units::Notation;
 
-use crate::support::{carried, folder, read_text, sources};
+use crate::support::{carried, folder, program, read_text, sources, stderr, stdout};
 
 /// Codes that no input is known to reach: the program is prepared for a fault of its own.
 const UNREACHED: [(&str, &str); 2] = [
@@ -37,11 +38,12 @@ fn codes(text: &str) -> Vec<(char, String)> {
         .collect()
 }
 
-/// Codes that the program says, codes that the heads of its files explain, and codes that its tests name: those of
-/// `tests/`, and those of the tests within the sources.
+/// Codes that the program reports, codes that the heads of its files explain, and codes that its tests name: those of
+/// `tests/`, and those of the tests within the sources. The list of the codes itself is not looked at.
 fn known() -> [BTreeSet<String>; 3] {
     let [mut said, mut explained, mut tested] = [const { BTreeSet::new() }; 3];
-    for file in &sources(&carried("src")) {
+    let list = carried("src/report/codes");
+    for file in sources(&carried("src")).iter().filter(|file| !file.with_extension("").starts_with(&list)) {
         let text = read_text(file);
         let own = file.file_name().is_some_and(|name| name == "tests.rs");
         let (program, tests) =
@@ -79,10 +81,85 @@ fn every_code_is_provoked() {
 }
 
 #[test]
-fn every_code_that_is_explained_exists() {
+fn every_code_is_explained_once() {
     let [said, explained, _] = known();
-    let stray: Vec<&String> = explained.difference(&said).collect();
-    assert!(stray.is_empty(), "heads of files explain {stray:?}, which nothing says");
+    let listed: BTreeSet<String> = CODES.iter().map(|found| found.code.to_owned()).collect();
+    let missing: Vec<&String> = said.difference(&listed).collect();
+    assert!(missing.is_empty(), "CODES lacks {missing:?}");
+    let stray: Vec<&String> = listed.difference(&said).collect();
+    assert!(stray.is_empty(), "CODES explains {stray:?}, which nothing reports");
+    assert!(CODES.windows(2).all(|pair| pair[0].code < pair[1].code), "CODES is not sorted, or has a code twice");
+    assert!(explained.is_empty(), "heads of files explain {explained:?}; CODES does");
+}
+
+/// Most words of a sentence; a code span is one word.
+const MOST_WORDS: usize = 25;
+
+/// A text with an x for each code span.
+fn without_spans(text: &str) -> String {
+    text.split('`').enumerate().map(|(k, part)| if k % 2 == 0 { part } else { "x" }).collect()
+}
+
+#[test]
+fn explanations_are_short_sentences() {
+    for Explanation { code, title, cause, example, remedy } in CODES {
+        assert!((2..=9).contains(&title.split(' ').count()), "{code}: {title}");
+        for text in [title, cause, example, remedy] {
+            let begins = |c: char| c.is_uppercase() || c == '`' && text == example;
+            assert!(text.starts_with(begins) && text.trim() == text && !text.contains("  "), "{code}: {text}");
+            assert!(text.matches('`').count() % 2 == 0, "{code}: {text}");
+            let prose = without_spans(text);
+            let mut words = 0;
+            for word in prose.split_whitespace() {
+                words += 1;
+                assert!(words <= MOST_WORDS, "{code}: {text}");
+                words *= usize::from(!word.ends_with(['.', '?', '!']));
+            }
+            assert_eq!(text.ends_with(['.', '?']), text != title, "{code}: {text}");
+        }
+    }
+}
+
+/// The page is written anew with LOFTSMAN_GOLDEN=1.
+#[test]
+fn the_reference_of_codes_is_up_to_date() {
+    let kept = carried("docs/src/reference/codes.md");
+    if std::env::var_os("LOFTSMAN_GOLDEN").is_some() {
+        fs::create_dir_all(kept.parent().unwrap()).unwrap();
+        fs::write(&kept, codes_page()).unwrap();
+    }
+    assert!(read_text(&kept) == codes_page(), "write {} anew with LOFTSMAN_GOLDEN=1", kept.display());
+}
+
+#[test]
+fn the_command_explains_codes() {
+    let all = stdout(&program(&["explain"]));
+    assert!(all.lines().zip(CODES).all(|(line, found)| line == format!("{} {}", found.code, found.title)));
+    assert_eq!(all.lines().count(), CODES.len());
+    let (code, title) = (CODES[0].code, CODES[0].title);
+    let two = stdout(&program(&["explain", &code.to_lowercase(), CODES[1].code]));
+    let starts = format!("{code} {title}\n");
+    assert!(two.starts_with(&starts) && two.contains(&format!("\n\n{} {}\n", CODES[1].code, CODES[1].title)), "{two}");
+    assert!(["\nCause: ", "\nExample: ", "\nRemedy: "].iter().all(|part| two.matches(part).count() == 2), "{two}");
+    let json: serde_json::Value = serde_json::from_str(&stdout(&program(&["explain", code, "--json"]))).unwrap();
+    assert_eq!((&json[0]["code"], &json[0]["title"], json.as_array().unwrap().len()), (&code.into(), &title.into(), 1));
+    let unknown = program(&["explain", code, "E1O1"]);
+    assert!(unknown.status.code() == Some(2) && unknown.stdout.is_empty());
+    assert!(stderr(&unknown).starts_with("no message has the code 'E1O1'. Did you mean "), "{}", stderr(&unknown));
+}
+
+/// Refusals name the command that explains them, once and on stderr; not beside JSON, and not without a code.
+#[test]
+fn refusals_name_the_explanation() {
+    let last = |arguments: &[&str]| stderr(&program(arguments)).lines().last().unwrap_or_default().to_owned();
+    let code = Failure::Exists(Vec::new()).code().unwrap();
+    assert!(CODES.iter().any(|found| found.code == code));
+    let missing = program(&["hydro", "nothing.csv"]);
+    let said = stderr(&missing);
+    let (first, more) = said.split_once('\n').unwrap();
+    assert_eq!(more, format!("More: loftsman explain {}\n", &first[..4]));
+    assert!(!last(&["check", "nothing.csv", "--json"]).starts_with("More"));
+    assert!(!last(&["explain", "nothing"]).starts_with("More"));
 }
 
 fn refusals(failure: Failure) -> Vec<String> {

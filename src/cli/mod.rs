@@ -4,6 +4,7 @@
 mod check;
 mod completions;
 mod convert;
+mod explain;
 mod export;
 mod fair;
 mod fair_curve;
@@ -86,6 +87,8 @@ enum Command {
     SelfTest(self_test::Arguments),
     /// Completions of a shell; with -o those of all shells, and manual pages
     Completions(completions::Arguments),
+    /// What the codes of messages mean, and what helps; without a code, all codes with their titles
+    Explain(explain::Arguments),
 }
 
 /// A list of lengths [m] on the command line.
@@ -135,6 +138,8 @@ fn positive(text: &str) -> Result<f64, String> {
 
 /// Runs the program on its arguments, the first of which is its name, and returns its exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let is_json = arguments.iter().any(|argument| argument == "--json");
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => {
@@ -161,15 +166,20 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Validate(arguments) => validate::run(arguments),
         Command::SelfTest(arguments) => self_test::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => told(&failure),
+        Err(failure) => told(&failure, is_json),
     }
 }
 
-fn told(failure: &Failure) -> ExitCode {
+/// Prints why the command failed, and how to read more about it where a person reads.
+fn told(failure: &Failure, is_json: bool) -> ExitCode {
     stream::message(&failure.to_string());
+    if let Some(code) = failure.code().filter(|_| !is_json) {
+        stream::message(&format!("More: loftsman explain {code}"));
+    }
     ExitCode::from(failure.exit_code())
 }
 

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::codes::explanation;
 use crate::config::{Diagnostic, Severity};
 
 /// Why a job did not end well.
@@ -73,6 +74,14 @@ impl Failure {
         Self::Usage(format!("--draught: {error}"))
     }
 
+    /// The code of the first error of the message; none of messages without a code.
+    #[must_use]
+    pub fn code(&self) -> Option<&'static str> {
+        let text = self.to_string();
+        let first = |line: &str| explanation(line.split_once(' ')?.0).map(|found| found.code);
+        text.lines().filter_map(first).find(|code| code.starts_with('E'))
+    }
+
     /// Exit code: 1 internal, 2 usage, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
@@ -132,5 +141,15 @@ mod tests {
         let failure = Failure::Internal("no plane".to_owned());
         assert_eq!(failure.exit_code(), 1);
         assert_eq!(failure.to_string(), "E901 no plane. This is a fault of the program; please report it");
+        assert_eq!(failure.code(), Some("E901"));
+    }
+
+    #[test]
+    fn the_code_is_that_of_the_first_error() {
+        let warning = problem("W164", Path::new("a.csv"), "one suspect".to_owned(), "");
+        let error = problem("E162", Path::new("a.csv"), "1 station".to_owned(), "");
+        assert_eq!(Failure::Input(vec![warning, error]).code(), Some("E162"));
+        assert_eq!(Failure::Usage("no folder".to_owned()).code(), None);
+        assert_eq!(Failure::Check("E501 the self-test failed".to_owned()).code(), Some("E501"));
     }
 }

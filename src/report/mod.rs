@@ -1,6 +1,7 @@
 //! Whole jobs: from a design or a table to the files about it, and what is printed of them.
 
 mod check;
+mod codes;
 mod comb_lines;
 mod convert;
 mod export;
@@ -33,6 +34,7 @@ mod validate;
 mod verdict;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
+pub use codes::{CODES, Explanation, codes_json, codes_list, codes_page, codes_text, explanation, explanations};
 pub use convert::{Converted, convert_file, convert_table};
 pub use export::{ExportFormat, ExportSettings, Exported, draught_of, export};
 pub use failure::Failure;

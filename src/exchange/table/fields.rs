@@ -1,9 +1,6 @@
 //! Numbers in the lines of a text, each with its place, and the list of what is wrong with them.
 //!
-//! Codes of the text formats, besides those of `problem.rs`: E321 numbers, E322 counts, E323 order of sections, E324
-//! terminators, E325 half-breadths, E326 headers, E327 particulars, E328 no hull; W330 origin of x, W331 asymmetry,
-//! W332 what was left out, W334 conventions, W335 unusual values. Nothing is allocated by a count that stands in a
-//! file.
+//! Nothing is allocated by a count that stands in a file.
 
 use super::problem::{Field, FilePosition, Problems};
 use super::{ReadTable, TableProblem};

@@ -1,38 +1,4 @@
 //! What is wrong with a table of offsets, and what should be known about it.
-//!
-//! | code | about |
-//! |---|---|
-//! | E300 | the file holds no table of offsets |
-//! | E301 | a cell that cannot be read |
-//! | E303 | positions that do not rise |
-//! | E304 | full breadths where half-breadths are meant |
-//! | E305 | units that contradict the numbers |
-//! | E306 | a station, waterline or buttock given twice |
-//! | E307 | a row with more or fewer fields than the header |
-//! | E308 | decimal commas among comma separators |
-//! | E309 | signs that contradict each other |
-//! | E310 | a header that is no position |
-//! | E311 | a convention that is not known, or cannot be |
-//! | E312 | a table that is too large |
-//! | E313 | a table with too little in it |
-//! | E315 | a length that is no ship's |
-//! | E350 | a record of a body that cannot be read |
-//! | E351 | a body of impossible size or axes, or not known to be whole |
-//! | E352 | faces of a body that cannot be read |
-//! | E353 | hydrostatics that no body can have |
-//! | W306 | no profiles of stem and stern |
-//! | W307 | few waterlines below the draught |
-//! | W308 | a draught above the top of the table |
-//! | W309 | a breadth that is not that of the table |
-//! | W310 | a length between perpendiculars that is not that of the table |
-//! | W314 | blank cells among half-breadths |
-//! | W315 | a bottom that the table does not show |
-//! | W320 | something was assumed that changes numbers |
-//! | W351 | a body that is not closed |
-//! | W352 | surfaces that are not read |
-//! | W353 | coefficients above 1 on the length, breadth and draught they are referred to |
-//! | W312 | more remarks than are shown |
-//! | N321 | what was detected: layout, separator, order, units |
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,0 +1,181 @@
+//! Codes of notes and warnings.
+
+use super::Explanation;
+
+pub(super) const REMARKS: [Explanation; 24] = [
+    Explanation {
+        code: "N321",
+        title: "How a table is read",
+        cause: "The program reports what it detected in a table or a body: layout, separator, order, unit.",
+        example: "`rows are stations, columns are waterlines (by the words of the headers)`.",
+        remedy: "Compare with the table. Declare what is wrong in a comment or in the TOML beside the file.",
+    },
+    Explanation {
+        code: "W164",
+        title: "Suspect in a table that makes no hull",
+        cause: "A fit is refused, and the table has suspects. The worst may be the reason.",
+        example: "`the worst is station 0, waterline 3.125 m`.",
+        remedy: "Run `loftsman check` on the table, and correct the offset.",
+    },
+    Explanation {
+        code: "W202",
+        title: "Ratio outside the band of the preset",
+        cause: "L/B, B/T or another ratio is outside the usual band of the ship type. The hull is built all the same.",
+        example: "`Lpp = 80` and `B = 15.5` for a general cargo ship: L/B 5.161 for 5.3 to 8.",
+        remedy: "Check the dimensions, or choose another preset.",
+    },
+    Explanation {
+        code: "W203",
+        title: "Midship coefficient at the largest section",
+        cause: "The parallel body does not reach Lpp/2. C_M is then held at the largest section, not at midship.",
+        example: "`parallel_body = [0.52, 0.6]`.",
+        remedy: "Let the parallel body contain 0.5, or accept C_M at the stated position.",
+    },
+    Explanation {
+        code: "W306",
+        title: "No profiles of stem and stern",
+        cause: "The table does not state where its waterlines end. The program extrapolates their ends.",
+        example: "A matrix without rows `stern` and `stem`.",
+        remedy: "Give rows `stern` and `stem` below the half-breadths, or points below `[endings]`.",
+    },
+    Explanation {
+        code: "W307",
+        title: "Few waterlines below the draught",
+        cause: "Fewer than six waterlines lie at or below T. Volumes from such a table are coarse.",
+        example: "`T = 1 m` for the waterlines 0, 0.5, 1 and 2 m.",
+        remedy: "Add waterlines below the draught, above all near the bilge.",
+    },
+    Explanation {
+        code: "W308",
+        title: "Draught above the table",
+        cause: "The stated T is above the highest waterline or point of the table.",
+        example: "`T = 5 m` for a table that ends 2 m above the base line.",
+        remedy: "Correct T, or give the waterlines up to it.",
+    },
+    Explanation {
+        code: "W309",
+        title: "Breadth that is not that of the table",
+        cause: "The stated B differs by more than 5 % from twice the greatest half-breadth up to the draught.",
+        example: "`B = 8 m` for half-breadths up to 2 m.",
+        remedy: "Correct B, or the unit of the half-breadths.",
+    },
+    Explanation {
+        code: "W310",
+        title: "Length that is not that of the table",
+        cause: "The stated L_PP differs by more than a factor of 1.5 from the extent of the stations.",
+        example: "`Lpp = 80 m` for stations from 0 to 20 m.",
+        remedy: "Correct L_PP, or the unit, the spacing or the number of the stations.",
+    },
+    Explanation {
+        code: "W311",
+        title: "Stations on both sides of AP",
+        cause: "Positions count from AP, and x = 0 lies in the middle half of the stations. LCB, C_M and L_PP are \
+         those of a hull with AP there.",
+        example: "Stations at -10, 0 and 10 m in a column `x [m]`.",
+        remedy: "Name the column `x_from_midship` if the distances count from there.",
+    },
+    Explanation {
+        code: "W312",
+        title: "More remarks than are shown",
+        cause: "A file has more than 100 warnings and notes. The rest is counted and not shown.",
+        example: "`50 more problems not shown`.",
+        remedy: "Correct the cause of the first remarks, and run the command again.",
+    },
+    Explanation {
+        code: "W314",
+        title: "Blank cells among half-breadths",
+        cause: "A cell between half-breadths is blank. It is read as not known, and not as no hull.",
+        example: "The row `10,0,1,,2`.",
+        remedy: "Write the offset, `?` for not known, or `-` where there is no hull.",
+    },
+    Explanation {
+        code: "W315",
+        title: "Bottom that the table does not show",
+        cause: "The lowest waterline is above the base line, and no keel is given. The volume below it is left out, \
+         and is more than 1 %.",
+        example: "A lowest waterline at 0.5 m: up to 19 % of the volume is below it.",
+        remedy: "Give a row or a column `keel` with its heights [m], or the lowest waterlines.",
+    },
+    Explanation {
+        code: "W320",
+        title: "Assumption that changes numbers",
+        cause: "The file leaves something open that changes the hull, such as its unit, origin, axes, order or side. \
+         The message states what the program assumes.",
+        example: "`distances count from midship and L_PP is not known`.",
+        remedy: "Declare it as the message shows. Then the warning disappears.",
+    },
+    Explanation {
+        code: "W330",
+        title: "Origin of sections",
+        cause: "Sections of a text format count x from an origin of their own. The message states where the program \
+         puts AP.",
+        example: "`taken as a point that is not named; the aftmost section is taken as AP`.",
+        remedy: "Check LCB. State Lpp beside the table if AP is elsewhere.",
+    },
+    Explanation {
+        code: "W331",
+        title: "Both sides given",
+        cause: "Sections give both sides of the hull. The starboard side is taken, and the message states how far \
+         port is from it in metres.",
+        example: "`29 sections give both sides; starboard is taken`.",
+        remedy: "Check the sections if the sides differ by more than the accuracy of the table.",
+    },
+    Explanation {
+        code: "W332",
+        title: "Part that is left out",
+        cause: "The program does not read a part of the file: a column, a hull, a component, a curve or a section.",
+        example: "`the column 'area' is not used`.",
+        remedy: "Check that the part is no part of the hull. Otherwise give it in another form.",
+    },
+    Explanation {
+        code: "W334",
+        title: "Convention of a text format",
+        cause: "A text format has a setting that the program does not apply, or leaves one open. The message states \
+         what is taken.",
+        example: "`trim 0.5 m is not applied: heights are those of the file`.",
+        remedy: "Check the stated convention, and change the file where it is another.",
+    },
+    Explanation {
+        code: "W335",
+        title: "Unusual value",
+        cause: "A value is read although it is unusual: a fraction above 1, or a half-breadth slightly below 0.",
+        example: "`9` for `0.9` in a table of fractions.",
+        remedy: "Look at the value. A decimal point may be missing.",
+    },
+    Explanation {
+        code: "W351",
+        title: "Body that is not closed",
+        cause: "A mesh has open edges, or shells that reach into others. What they share counts twice.",
+        example: "A mesh without deck: `4 edges open`.",
+        remedy: "Only deck, transom and flat bow may be missing. Unite shells to one skin.",
+    },
+    Explanation {
+        code: "W352",
+        title: "Surfaces that are not read",
+        cause: "A STEP or IGES file has entities beside its faces that are not read.",
+        example: "`1 CYLINDRICAL_SURFACE of no face are not read`.",
+        remedy: "Nothing, if these entities are no part of the hull.",
+    },
+    Explanation {
+        code: "W353",
+        title: "Coefficients above 1",
+        cause: "C_B, C_M, C_P or C_WP is above 1. The length, breadth and draught are less than those of the body, \
+         or are measured elsewhere.",
+        example: "`Lpp = 30` for a body of 60 m: CB 2.000.",
+        remedy: "State Lpp, B and T of the body in metres.",
+    },
+    Explanation {
+        code: "W401",
+        title: "Targets met by adding inflections",
+        cause: "The hull of `fair` meets its targets, and all lines together have more inflections than before.",
+        example: "`the targets are met by adding inflections: 16 > 20`.",
+        remedy: "Give nearer targets, or the wider tolerances that the message names.",
+    },
+    Explanation {
+        code: "W402",
+        title: "Lines that bend more often",
+        cause: "Single lines of the fair hull have more inflections than on the surface through the table.",
+        example: "`1 line bends more often than before: waterline 0.965 m 4 > 7`.",
+        remedy: "Limit their number below `shape.inflections`, or take less smoothing with `--weight`.",
+    },
+];

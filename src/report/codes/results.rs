@@ -1,0 +1,80 @@
+//! Codes of what commands end with.
+
+use super::Explanation;
+
+pub(super) const RESULTS: [Explanation; 10] = [
+    Explanation {
+        code: "E401",
+        title: "Infeasible targets",
+        cause: "No hull within the tolerances meets all targets and rules of `fair`. The files hold a compromise.",
+        example: "`loftsman fair table.csv --cb 0.7 --tolerance \"1 mm\"` for a hull of another C_B.",
+        remedy: "Follow the message: widen the tolerances, take the nearest target, unlock offsets, or drop a rule.",
+    },
+    Explanation {
+        code: "E402",
+        title: "Solver stopped early",
+        cause: "The solver stopped before the optimum of `fair` was proved. The files hold its best point.",
+        example: "The message itself: `the solver stopped before the optimum was proved`.",
+        remedy: "Widen the tolerances or relax the targets. The residuals are in `fairing.json`.",
+    },
+    Explanation {
+        code: "E403",
+        title: "Metacentre or wetted surface off its target",
+        cause: "Metacentre and wetted surface are not linear, and the steps towards their targets did not converge. \
+         The files hold the nearest hull.",
+        example: "The message itself: `what is held of metacentre or wetted surface did not come to its target`.",
+        remedy: "Look at `constraints` in `fairing.json`, widen the tolerance, or move the target.",
+    },
+    Explanation {
+        code: "E410",
+        title: "Infeasible targets of a curve",
+        cause: "No curve within the tolerances has the area, centroid, slope or number of inflections. What is \
+         written is a compromise.",
+        example: "`loftsman fair-curve curve.csv --area 200 --tolerance \"1 mm\"` for a curve of 36 m2.",
+        remedy: "Give the tolerance of the message, or a target within the stated interval.",
+    },
+    Explanation {
+        code: "E501",
+        title: "Failed self-test",
+        cause: "The command `self-test` computes an analytic body, and a number differs from its closed form.",
+        example: "`loftsman self-test` on a damaged build.",
+        remedy: "Look at the lines marked FAILED, and report them with the version of the program.",
+    },
+    Explanation {
+        code: "E502",
+        title: "Failed check",
+        cause: "The command `check` found suspects or problems, or `validate` found a figure beyond its tolerance.",
+        example: "`E502 3 suspects, 1 problem`.",
+        remedy: "Look at the list of the command. `check --accept S1` writes the table with the proposal for S1.",
+    },
+    Explanation {
+        code: "E503",
+        title: "Hull no fairer than its table",
+        cause: "The targets are met, and the hull has more changes of sign or monotone pieces than the surface \
+         through the table. Or it has no fewer changes of sign, and far fewer are possible. The files are written.",
+        example: "`E503 table.csv: the hull is no fairer than the surface through the table: 16 > 18 changes of sign`.",
+        remedy: "Give nearer targets, wider tolerances or more smoothing with `--weight`, or look for errors with \
+         `loftsman check`.",
+    },
+    Explanation {
+        code: "E601",
+        title: "Files that exist",
+        cause: "The command would overwrite files, and does not do so without `--force`.",
+        example: "`loftsman generate configs/box.toml` for the second time.",
+        remedy: "Give `--force`, or another folder with `-o`.",
+    },
+    Explanation {
+        code: "E602",
+        title: "File system",
+        cause: "The operating system refuses to read, write or remove a file or a folder.",
+        example: "`loftsman hydro nothing.csv`: no such file.",
+        remedy: "Check the path, the permissions and the space. The message ends with what may help.",
+    },
+    Explanation {
+        code: "E901",
+        title: "Fault of the program",
+        cause: "A step that must not fail has failed. The input is not the cause.",
+        example: "`E901 no plane. This is a fault of the program; please report it`.",
+        remedy: "Report the message, the command and the input.",
+    },
+];
