@@ -332,7 +332,7 @@ fn witness(points: &[CurvePoint], witness: &Witness) -> Value {
 
 /// `fairing.json` of a curve. The list of inflections has one entry, the curve, with places, proof and refused numbers.
 #[must_use]
-pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradictions, seconds: f64) -> Value {
+pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradictions) -> Value {
     let certificate = &fair.certificate;
     let least = &fair.least;
     let lines: Vec<Value> = fair
@@ -411,7 +411,7 @@ pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradiction
         "infeasible": infeasible(fair),
         "suspects": suspects,
         "corners": corners,
-        "work": { "solves": fair.work[0], "iterations": fair.work[1], "refreshes": fair.refreshes, "seconds": json_number(Some(seconds)) },
+        "work": { "solves": fair.work[0], "iterations": fair.work[1], "refreshes": fair.refreshes },
     })
 }
 

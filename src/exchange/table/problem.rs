@@ -16,6 +16,7 @@
 //! | E312 | a table that is too large |
 //! | E313 | a table with too little in it |
 //! | E315 | a length that is no ship's |
+//! | E316 | a name that no drawing can show |
 //! | E350 | a record of a body that cannot be read |
 //! | E351 | a body of impossible size or axes, or not known to be whole |
 //! | E352 | faces of a body that cannot be read |
@@ -31,6 +32,7 @@
 //! | W351 | a body that is not closed |
 //! | W352 | surfaces that are not read |
 //! | W353 | coefficients above 1 on the length, breadth and draught they are referred to |
+//! | W354 | an LCB or a half angle of entrance that hardly any ship has |
 //! | W312 | more remarks than are shown |
 //! | N321 | what was detected: layout, separator, order, units |
 
