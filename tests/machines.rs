@@ -208,6 +208,17 @@ fn results_have_no_volatile_data() {
     assert!(!first.0.contains("seconds") && !first.1.contains("seconds") && !first.1.contains("c.csv"));
 }
 
+/// Numbers of no ship are refused, whatever becomes of them later.
+#[test]
+fn numbers_beyond_all_ships_are_refused_in_curves() {
+    let folder = folder("beyond");
+    for (name, rows) in [("y", "0,0\n1,1e154\n2,2e154\n3,0\n"), ("x", "0,0\n1e154,1\n2e154,1\n3e154,0\n")] {
+        let output = program(&["fair-curve", &folder.write(name, format!("x,y\n{rows}"))]);
+        assert_eq!(output.status.code(), Some(3));
+        assert!(stderr(&output).starts_with("E340 ") && stderr(&output).contains("no ship"), "{}", stderr(&output));
+    }
+}
+
 #[test]
 fn text_of_a_table_is_no_formula() {
     let folder = folder("formula");

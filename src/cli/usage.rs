@@ -44,7 +44,9 @@ fn words(value: Option<&ContextValue>) -> String {
 pub(super) fn failure(error: &clap::Error) -> Failure {
     let text = error.render().to_string();
     let text = text.trim_end().trim_start_matches("error: ");
-    let (message, help) = text.split_once("\n").unwrap_or((text, ""));
+    let (message, help) = text.split_once("\n\n").unwrap_or((text, ""));
+    let message: Vec<&str> = message.lines().map(str::trim).collect();
+    let message = message.join(" ");
     let invalid = [ContextKind::InvalidArg, ContextKind::InvalidSubcommand];
     let found = words(error.get(ContextKind::InvalidValue));
     let valid = words(error.get(ContextKind::ValidValue));

@@ -9,6 +9,7 @@
 use serde_json::{Value, json};
 
 use super::fairing::COMPROMISE_LINE;
+use super::fault::LARGEST;
 use super::number::{cell, json_number, line};
 use crate::fairing::curve::{Contradictions, CurvePoint, FairCurve, FairStatus};
 use crate::fairing::inflections::Witness;
@@ -234,6 +235,10 @@ fn point(
         }
         if let CellEntry::Length(value) = &mut reading.entry {
             *value *= column.factor();
+            if value.is_nan() || value.abs() > LARGEST {
+                let remedy = format!("Expected at most {LARGEST:e} m, or m2 of an area.");
+                return Err((format!("'{text}' is of no ship"), remedy));
+            }
         }
         Ok(reading)
     };

@@ -17,8 +17,11 @@ pub(super) fn value(row: &Hydrostatics, key: &str) -> String {
         .unwrap_or_default()
 }
 
-/// A number with so many decimals; what rounds to zero has no sign.
+/// A number with so many decimals; what rounds to zero has no sign, and what is no number is "-".
 pub(super) fn fixed(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return "-".to_owned();
+    }
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
         Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_owned(),
@@ -245,6 +248,7 @@ mod tests {
     #[test]
     fn what_rounds_to_zero_has_no_sign() {
         assert_eq!((fixed(-0.004, 2), fixed(-0.0, 0)), ("0.00".to_owned(), "0".to_owned()));
+        assert_eq!([f64::NAN, f64::INFINITY, -f64::INFINITY].map(|value| fixed(value, 2)), ["-", "-", "-"]);
         assert_eq!((fixed(-0.006, 2), fixed(-10.0, 1)), ("-0.01".to_owned(), "-10.0".to_owned()));
     }
 
