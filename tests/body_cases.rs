@@ -48,7 +48,15 @@ fn a_waterplane_turns_about_its_own_axis() {
     let beside = row("box-y-4-to-6.gdf", -0.5).unwrap();
     let inertia = beside.waterplane_area.powi(3) / 40.0f64.powi(2) / 12.0;
     assert!((beside.transverse_inertia - inertia).abs() < 1e-9 * inertia, "{}", beside.transverse_inertia);
-    assert!(beside.remark.is_some_and(|remark| remark.contains("to port of the centreplane")));
+    let said = |row: &Hydrostatics| row.remark.clone().unwrap_or_default();
+    assert!(said(&beside).contains("YCB 1.000 m, to port of the centreplane"), "{}", said(&beside));
+    assert_eq!((beside.transverse_centre.map(|y| (1e6 * y).round()), beside.heel), (Some(1e6), None));
+    // With KG known it heels by atan(YCB / GM).
+    let body = read_hydrostatic_body(&carried("tests/body_cases/box-y-4-to-6.gdf")).unwrap();
+    let known = Conventions { centre_of_gravity_height: Some(-9.0), ..Conventions::default() };
+    let heeled = body.curves_of_form(&[-0.5], &known).unwrap().0.rows.remove(0);
+    let expected = (1.0 / heeled.gm_transverse.unwrap()).atan().to_degrees();
+    assert!((heeled.heel.unwrap() - expected).abs() < 1e-9 && said(&heeled).contains("heels it by"));
     let wide = row("wide.gdf", -2.0).unwrap().transverse_inertia;
     assert!((wide - 874.8).abs() < 1e-9 * 874.8, "{wide}");
 }

@@ -101,7 +101,7 @@ fn what_was_removed_names_the_dial() {
     ] {
         let output = program(&[&["fair"], option, &[&table, "-o", &out, "--no-figures"]].concat());
         let (code, said) = (output.status.code(), stderr(&output));
-        let expected = format!("error: {} was removed: --fairness serves instead", option[0]);
+        let expected = format!("E701 command line {} was removed: --fairness serves instead", option[0]);
         assert!(code == Some(2) && said.starts_with(&expected), "{code:?} {said}");
     }
     for (table_key, keys) in [

@@ -39,6 +39,7 @@ mod hemisphere;
 mod hydrostatics;
 mod inflections;
 mod inspect;
+mod machines;
 mod methods;
 mod partners;
 mod qp;

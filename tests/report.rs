@@ -18,7 +18,7 @@ pub(crate) const SETTINGS: ReportSettings =
     ReportSettings { dots_per_inch: 24.0, sheet: Sheet::A3, combs: String::new(), date: None };
 
 pub(crate) fn write(folder: &Path, files: &[OutputFile]) {
-    Destination { folder, inputs: &[], force: true }.write(files).unwrap();
+    Destination { folder, inputs: &loftsman::report::Inputs::default(), force: true }.write(files).unwrap();
 }
 
 /// A generated hull in a folder of its own.

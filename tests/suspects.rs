@@ -515,7 +515,9 @@ fn example(folder: &Path) {
     std::fs::write(folder.join("series60-misprinted.csv"), &wrong).unwrap();
     let check = loftsman::report::check_table(&folder.join("series60-misprinted.csv")).unwrap();
     let files = loftsman::report::check_files(&check, true).unwrap();
-    loftsman::report::Destination { folder, inputs: &[], force: true }.write(&files).unwrap();
+    loftsman::report::Destination { folder, inputs: &loftsman::report::Inputs::default(), force: true }
+        .write(&files)
+        .unwrap();
 }
 
 #[test]

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::stream;
-use crate::report::{Destination, Failure, accept, check_files, check_json, check_page, check_table, source_files};
+use crate::report::{
+    Destination, Failure, Inputs, accept, check_files, check_json, check_page, check_table, source_files,
+};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -38,7 +40,7 @@ and sections as points (P1, ...), each point against the section through the oth
 JSON: judged, heights_judged, points_judged, points_not_judged, noise, suspects (id, of half-breadth, height or point; station, \
 waterline or buttock, row, column, or branch, point, number, y, z; written, expected, score, hypothesis, proposed, probability, \
 hypotheses), problems (code, row, message), lines (kind knuckle or tangent, course waterline or station, at, from, to, gain).
-Exit code 5 with suspects or with problems of cells; remarks on how the file was read do not count.
+Exit code 5 with suspects or with problems of cells, 3 where the file has no table; remarks on how the file was read do not count.
 Read are CSV and TSV (matrix, one offset a line, sections as points), XLSX, GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text \
 of FREE!ship, tables of DELFTship, and tables of fractions of the half-breadth; a TOML file of the same name beside a table \
 may say what it leaves open.";
@@ -52,7 +54,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.accept.is_empty() {
         let accepted = accept(&check, &arguments.accept)?;
         if arguments.output.is_some() && arguments.json {
-            stream::data(&stream::json(&check_json(&check))?)?;
+            stream::data(&stream::json_judged(check_json(&check), &check.verdict(&arguments.accept))?)?;
         }
         accepted.changes.iter().for_each(|change| stream::message(change));
         stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }
@@ -60,9 +62,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return check.verdict(&arguments.accept);
     }
     if let Some(folder) = &arguments.output {
-        Destination { folder, inputs: &inputs, force: arguments.force }
+        Destination { folder, inputs: &Inputs::of(&inputs), force: arguments.force }
             .write(&check_files(&check, !arguments.no_figures)?)?;
     }
-    stream::data(&if arguments.json { stream::json(&check_json(&check))? } else { check_page(&check) })?;
-    check.verdict(&[])
+    let verdict = check.verdict(&[]);
+    let json = || stream::json_judged(check_json(&check), &verdict);
+    stream::data(&if arguments.json { json()? } else { check_page(&check) })?;
+    verdict
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::stream;
 use crate::exchange::TableWriting;
 use crate::hull::TableLayout;
-use crate::report::{ExportFormat, ExportSettings, Failure, convert_file, convert_table, source_files};
+use crate::report::{ExportFormat, ExportSettings, Failure, convert_file, convert_table, is_hull, source_files};
 use crate::units::Notation;
 
 #[derive(Debug, Args)]
@@ -48,9 +48,6 @@ pub(super) struct Arguments {
 /// Endings of tables.
 const TABLES: [&str; 2] = ["csv", "xlsx"];
 
-/// Endings of hulls and designs.
-const HULLS: [&str; 4] = ["json", "toml", "hgf", "huf"];
-
 fn layout(word: &str) -> Result<TableLayout, String> {
     match word {
         "matrix" => Ok(TableLayout::Matrix),
@@ -80,8 +77,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let target = stream::Target { file: output, inputs: &inputs, force: arguments.force };
     let overrides = arguments.conventions.overrides();
     let of_name = || output.and_then(|path| ExportFormat::from_ending(&path.to_string_lossy()));
-    let hull = arguments.table.is_dir()
-        || arguments.table.extension().is_some_and(|e| HULLS.iter().any(|known| e.eq_ignore_ascii_case(known)));
+    let hull = is_hull(&arguments.table);
     let table = hull.then(|| {
         let workbook = output.and_then(|path| path.extension()).is_some_and(|e| e == "xlsx");
         if workbook { ExportFormat::Xlsx } else { ExportFormat::Csv }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{length, positive, stream};
 use crate::exchange::{CadUnit, DxfVersion};
 use crate::report::{
-    Destination, ExportFormat, ExportSettings, Failure, draught_of, export, read_source_with, source_files,
+    Destination, ExportFormat, ExportSettings, Failure, Inputs, draught_of, export, read_source_with, source_files,
 };
 
 #[derive(Debug, Args)]
@@ -122,7 +122,13 @@ fn datum(text: &str) -> Result<Datum, String> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
-    let stem = arguments.hull.file_stem().unwrap_or_else(|| "hull".as_ref()).to_string_lossy().into_owned();
+    let stem = arguments
+        .hull
+        .file_stem()
+        .filter(|stem| *stem != "-")
+        .unwrap_or_else(|| "hull".as_ref())
+        .to_string_lossy()
+        .into_owned();
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&stem));
     let datum = match arguments.datum {
         Datum::Height(height) => height,
@@ -140,7 +146,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         flatness: arguments.flatness,
     };
     let exported = export(&source.hull, &stem, &arguments.format, &settings)?;
-    let inputs = source_files(&arguments.hull);
+    let inputs = Inputs::of(&source_files(&arguments.hull));
     Destination { folder: &folder, inputs: &inputs, force: arguments.force }.write(&exported.files)?;
     if arguments.quiet {
         return Ok(());

@@ -10,7 +10,7 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use super::run_files::RunFiles;
 use super::stream;
 use crate::report::{
-    Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs_with_progress, fair_page, fair_summary,
+    Destination, Failure, FairJob, FairOutputs, Inputs, fair_line, fair_outputs_with_progress, fair_page, fair_summary,
     read_fair,
 };
 use crate::units::counted;
@@ -211,7 +211,7 @@ impl Arguments {
 }
 
 /// Reads, fairs and writes once; the job, when it could be read, tells which files to watch.
-fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOutputs, f64), Failure>) {
+fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<FairOutputs, Failure>) {
     let progress = |text: String| {
         if !arguments.files.quiet {
             stream::message(&text);
@@ -224,7 +224,8 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     };
     job.grades = arguments.grades;
     let folder = arguments.files.folder(&arguments.input, false);
-    let destination = Destination { folder: &folder, inputs: job.files(), force };
+    let inputs = Inputs::of(job.files());
+    let destination = Destination { folder: &folder, inputs: &inputs, force };
     if let Err(failure) = destination.check(job.outputs().iter().map(String::as_str)) {
         return (Some(job), Err(failure));
     }
@@ -239,10 +240,9 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
         Ok(outputs) => outputs,
         Err(failure) => return (Some(job), Err(failure)),
     };
-    let seconds = start.elapsed().as_secs_f64();
-    progress(format!("faired in {seconds:.2} s"));
+    progress(format!("faired in {:.2} s", start.elapsed().as_secs_f64()));
     outputs.warning().iter().for_each(|warning| stream::message(warning));
-    let written = destination.write_run(&outputs.files).map(|()| (outputs, seconds));
+    let written = destination.write_run(&outputs.files).map(|()| outputs);
     (Some(job), written)
 }
 
@@ -257,20 +257,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.watch {
         return watch(arguments, job, done, started);
     }
-    let (outputs, seconds) = done?;
+    let outputs = done?;
     if let Some(job) = job {
-        print(arguments, &job, &outputs, seconds)?;
+        print(arguments, &job, &outputs)?;
     }
     outputs.verdict()
 }
 
-fn print(arguments: &Arguments, job: &FairJob, outputs: &FairOutputs, seconds: f64) -> Result<(), Failure> {
+fn print(arguments: &Arguments, job: &FairJob, outputs: &FairOutputs) -> Result<(), Failure> {
     if arguments.files.json {
-        let mut certificate = outputs.certificate.clone();
-        if let Some(work) = certificate.get_mut("work").and_then(|work| work.as_object_mut()) {
-            work.insert("seconds".to_owned(), seconds.into());
-        }
-        return stream::data(&stream::json(&certificate)?);
+        return stream::data(&stream::json_judged(outputs.certificate.clone(), &outputs.verdict())?);
     }
     if arguments.files.quiet {
         return Ok(());
@@ -284,16 +280,19 @@ fn print(arguments: &Arguments, job: &FairJob, outputs: &FairOutputs, seconds: f
 fn watch(
     arguments: &Arguments,
     job: Option<FairJob>,
-    done: Result<(FairOutputs, f64), Failure>,
+    done: Result<FairOutputs, Failure>,
     started: SystemTime,
 ) -> Result<(), Failure> {
     let mut files = job.as_ref().map_or_else(|| vec![arguments.input.clone()], |job| job.files().to_vec());
     match (done, &job) {
-        (Ok((outputs, seconds)), Some(job)) => {
-            print(arguments, job, &outputs, seconds)?;
+        (Ok(outputs), Some(job)) => {
+            print(arguments, job, &outputs)?;
             report(&outputs.verdict());
         }
-        (Err(failure @ (Failure::Usage(_) | Failure::Exists(_) | Failure::FileSystem { .. })), _) => {
+        (
+            Err(failure @ (Failure::Usage(_) | Failure::Options(_) | Failure::Exists(_) | Failure::FileSystem { .. })),
+            _,
+        ) => {
             return Err(failure);
         }
         (done, _) => report(&done.map(|_| ())),
@@ -320,7 +319,7 @@ fn watch(
             seen = stamps(&files);
         }
         match done {
-            Ok((outputs, _)) => {
+            Ok(outputs) => {
                 stream::data(&fair_line(&outputs))?;
                 report(&outputs.verdict());
             }

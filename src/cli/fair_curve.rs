@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::{Lengths, length, lengths, stream};
 use crate::fairing::curve::{CurveSettings, InflectionWish};
 use crate::report::{
-    CurveJob, Destination, Failure, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve,
+    CurveJob, Destination, Failure, Inputs, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve,
 };
 use crate::units::Notation;
 
@@ -147,9 +147,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         done.notes.iter().for_each(|note| stream::message(note));
     }
     if let Some(folder) = &arguments.output {
-        Destination { folder, inputs: std::slice::from_ref(&arguments.curve), force: arguments.force }
+        Destination { folder, inputs: &Inputs::of(&[&arguments.curve]), force: arguments.force }
             .write(&fair_curve_files(&done, !arguments.no_figures)?)?;
     }
-    stream::data(&if arguments.json { stream::json(&fair_curve_json(&done))? } else { fair_curve_page(&done) })?;
-    done.verdict()
+    let verdict = done.verdict();
+    let json = || stream::json_judged(fair_curve_json(&done), &verdict);
+    stream::data(&if arguments.json { json()? } else { fair_curve_page(&done) })?;
+    verdict
 }

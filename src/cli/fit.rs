@@ -7,7 +7,7 @@ use clap::Args;
 use super::run_files::{Figures, RunFiles};
 use super::{positive, stream};
 use crate::plot::Figure;
-use crate::report::{Destination, Failure, fit_outputs, fit_page, read_fit};
+use crate::report::{Destination, Failure, Inputs, fit_outputs, fit_page, read_fit};
 
 #[derive(Debug, Args)]
 #[command(after_help = super::TABLES)]
@@ -34,7 +34,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let figures = arguments.figures.chosen(&arguments.files, &Figure::ALL.map(Figure::key));
     let folder = arguments.files.folder(&arguments.input, false);
     let outputs = fit_outputs(&job, &figures)?;
-    let destination = Destination { folder: &folder, inputs: job.files(), force: arguments.files.force };
+    let destination = Destination { folder: &folder, inputs: &Inputs::of(job.files()), force: arguments.files.force };
     destination.write_run(&outputs.files)?;
     if arguments.files.json {
         stream::data(&stream::json(&outputs.summary)?)

@@ -6,7 +6,9 @@ use clap::{Args, ValueEnum};
 
 use super::{Lengths, length, lengths, positive, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
-use crate::hydrostatics::{CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection};
+use crate::hydrostatics::{
+    CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, Given, LcbReference, PrismaticSection,
+};
 use crate::report::{Failure, hydrostatics_page, read_hydrostatic_body_at, read_hydrostatic_body_with, source_files};
 use crate::units::{Dimension, parse};
 
@@ -94,7 +96,14 @@ fn lcb_reference(word: &str) -> Result<LcbReference, String> {
 
 /// The conventions stored with the hull, and over them what the command line says.
 fn conventions(arguments: &Arguments, stored: Conventions) -> Conventions {
+    let given = Given {
+        draught: arguments.draught.map(|_| true).or(stored.given.draught),
+        lcb_reference: stored.given.lcb_reference || arguments.lcb_reference.is_some(),
+        density: stored.given.density || arguments.density.is_some(),
+        ..stored.given
+    };
     Conventions {
+        given,
         density: arguments.density.unwrap_or(stored.density),
         coefficient_length: match arguments.coefficient_length {
             Some(CoefficientLengthWord::Lpp) => CoefficientLength::BetweenPerpendiculars,
@@ -131,7 +140,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else if arguments.csv {
         hydrostatics_csv(&table)
     } else {
-        hydrostatics_page(&table, &source.particulars)
+        let page = hydrostatics_page(&table, &source.particulars);
+        if arguments.output.is_none() {
+            return stream::page(&page);
+        }
+        page
     };
     let inputs = source_files(&arguments.hull);
     stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }.text(text)

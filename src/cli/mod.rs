@@ -20,6 +20,7 @@ mod schema;
 mod section;
 mod self_test;
 mod stream;
+mod usage;
 mod validate;
 
 use std::ffi::OsString;
@@ -49,7 +50,8 @@ struct Cli {
 }
 
 const EXIT_CODES: &str = "Lists: 1:9:1 (from:to:step, both ends), 1,2.5,4 or 0,5,...,30; lengths are metres, or carry a unit: \
-6150mm, 20ft6in, 3-4-5+.\nExit codes: 0 ok, 1 internal error, 2 usage, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.";
+6150mm, 20ft6in, 3-4-5+.\nExit codes: 0 ok, 1 internal error, 2 usage, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.\n\
+With --json stdout is one document, of a failure {\"error\": [...]}. The file name - is standard input.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -136,19 +138,37 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Stack of the commands \[bytes\], whatever that of the process is.
+const STACK: usize = 16 << 20;
+
 /// Runs the program on its arguments, the first of which is its name, and returns its exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let is_json = arguments.iter().any(|argument| argument == "--json");
+    let as_json = usage::wants_json(&arguments);
+    let done = std::thread::scope(|scope| {
+        let own = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || command(&arguments));
+        match own {
+            Ok(thread) => thread.join().unwrap_or_else(|_| Err(Failure::Internal("the job ended early".to_owned()))),
+            Err(_) => command(&arguments),
+        }
+    });
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => told(&failure, as_json),
+    }
+}
+
+fn command(arguments: &[OsString]) -> Result<(), Failure> {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
+        Err(error) if error.use_stderr() => return Err(usage::failure(&error)),
         Err(error) => {
             // Help and version go to stdout and are no error; a closed pipe changes neither.
             let _ = error.print();
-            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+            return Ok(());
         }
     };
-    let done = match &cli.command {
+    match &cli.command {
         Command::Check(arguments) => check::run(arguments),
         Command::Generate(arguments) => generate::run(arguments),
         Command::Fair(arguments) => fair::run(arguments),
@@ -167,17 +187,18 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::SelfTest(arguments) => self_test::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => told(&failure, is_json),
     }
 }
 
-/// Prints why the command failed, and how to read more about it where a person reads.
-fn told(failure: &Failure, is_json: bool) -> ExitCode {
+/// Reports a failure: in words, with how to read more about it, and as the one document where JSON is requested and none was
+/// printed.
+fn told(failure: &Failure, as_json: bool) -> ExitCode {
+    if as_json && !stream::is_written() {
+        // A closed pipe, or a full one, changes nothing about the failure.
+        let _ = stream::json(&failure.to_json()).and_then(|text| stream::data(&text));
+    }
     stream::message(&failure.to_string());
-    if let Some(code) = failure.code().filter(|_| !is_json) {
+    if let Some(code) = failure.code().filter(|_| !as_json) {
         stream::message(&format!("More: loftsman explain {code}"));
     }
     ExitCode::from(failure.exit_code())

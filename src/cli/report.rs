@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::stream;
 use crate::plot::Sheet;
-use crate::report::{Destination, Failure, ReportSettings, read_result, report_outputs, same_path};
+use crate::report::{Destination, Failure, Inputs, ReportSettings, read_result, report_outputs, same_path};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -100,8 +100,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         combs: arguments.combs.clone().unwrap_or_default(),
         date: arguments.date.clone(),
     };
-    let inputs = std::slice::from_ref(&arguments.result);
-    let destination = Destination { folder: &folder, inputs, force: arguments.force };
+    let inputs = Inputs::of(&[&arguments.result]);
+    let destination = Destination { folder: &folder, inputs: &inputs, force: arguments.force };
     destination.check(["report.html", "report.pdf", "manifest.json"])?;
     let files = report_outputs(&result, &settings)?;
     destination.write_run(&files)?;

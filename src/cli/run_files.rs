@@ -29,7 +29,7 @@ pub(super) struct RunFiles {
 impl RunFiles {
     /// The folder for the files about one input; `several` when the command was given more than one.
     pub(super) fn folder(&self, input: &Path, several: bool) -> PathBuf {
-        let name = input.file_stem().unwrap_or_else(|| "hull".as_ref());
+        let name = input.file_stem().filter(|stem| *stem != "-").unwrap_or_else(|| "hull".as_ref());
         match &self.output {
             Some(folder) if several => folder.join(name),
             Some(folder) => folder.clone(),

@@ -1,17 +1,43 @@
 //! The standard streams. A reader that stops early is not an error.
 
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::hull::TableForm;
-use crate::report::{Destination, Failure, OutputFile};
+use crate::report::{Destination, Failure, Inputs, OutputFile, TENDER};
+
+/// Whether something was written to stdout: a second document behind the first would spoil both.
+static WRITTEN: AtomicBool = AtomicBool::new(false);
+
+/// Whether something was written to stdout.
+pub(super) fn is_written() -> bool {
+    WRITTEN.load(Ordering::Relaxed)
+}
 
 /// Writes data to stdout.
 pub(super) fn data(text: &str) -> Result<(), Failure> {
     raw(text.as_bytes())
 }
 
+/// Writes a page to stdout; on a terminal, unless `NO_COLOR` is set, too little GM is red.
+pub(super) fn page(text: &str) -> Result<(), Failure> {
+    data(&coloured(
+        text,
+        std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|word| word.is_empty()),
+    ))
+}
+
+fn coloured(text: &str, is_terminal: bool) -> String {
+    let line = |line: &str| match line {
+        line if is_terminal && line.starts_with(TENDER) => format!("\u{1b}[31m{line}\u{1b}[0m\n"),
+        line => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
+}
+
 fn raw(bytes: &[u8]) -> Result<(), Failure> {
+    WRITTEN.fetch_or(!bytes.is_empty(), Ordering::Relaxed);
     let mut out = std::io::stdout().lock();
     match out.write_all(bytes).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -65,13 +91,34 @@ impl Target<'_> {
             return Err(Failure::FileSystem { act: "write", path: path.to_owned(), error });
         };
         let folder = path.parent().unwrap_or(Path::new(""));
-        let destination = Destination { folder, inputs: self.inputs, force: self.force };
+        let inputs = Inputs::of(self.inputs);
+        let destination = Destination { folder, inputs: &inputs, force: self.force };
         destination.write(&[contents(&name.to_string_lossy())?])
     }
 }
 
 /// A JSON value as text with a line end.
-pub(super) fn json(value: &serde_json::Value) -> Result<String, Failure> {
+pub(super) fn json(value: &impl serde::Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(value).map_err(|error| Failure::Internal(error.to_string()))?;
     Ok(text + "\n")
+}
+
+/// The same, with the failure that ends the command after it, as the member `error`.
+pub(super) fn json_judged(mut value: serde_json::Value, verdict: &Result<(), Failure>) -> Result<String, Failure> {
+    if let (Err(failure), Some(object)) = (verdict, value.as_object_mut()) {
+        object.extend(failure.to_json().as_object().cloned().unwrap_or_default());
+    }
+    json(&value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn too_little_gm_is_red_on_terminals_alone() {
+        let page = format!("T 3\n{TENDER} 0.15 m\n");
+        assert_eq!(coloured(&page, false), page);
+        assert_eq!(coloured(&page, true), format!("T 3\n\u{1b}[31m{TENDER} 0.15 m\u{1b}[0m\n"));
+    }
 }

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::stream;
-use crate::report::{Destination, Failure, OutputFile, validate, validation_csv, validation_json, validation_page};
+use crate::report::{
+    Destination, Failure, Inputs, OutputFile, validate, validation_csv, validation_json, validation_page,
+};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -43,13 +45,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let page = format!("# Fitted tables against published figures\n\n{}", validation_page(&cases));
         let files = [OutputFile::text("report.md", page), OutputFile::text("validation.csv", validation_csv(&cases))];
         let inputs: Vec<PathBuf> = cases.iter().map(|case| case.folder.join(&case.table)).collect();
-        Destination { folder, inputs: &inputs, force: arguments.force }.write(&files)?;
+        Destination { folder, inputs: &Inputs::of(&inputs), force: arguments.force }.write(&files)?;
     }
-    let text = if arguments.json { stream::json(&validation_json(&cases))? } else { validation_page(&cases) };
-    stream::data(&text)?;
     let failed: Vec<&str> = cases.iter().filter(|case| !case.passed()).map(|case| case.name.as_str()).collect();
-    if failed.is_empty() {
-        return Ok(());
-    }
-    Err(Failure::Check(format!("E502 beyond a tolerance, or no hull: {}", failed.join(", "))))
+    let verdict = match failed.as_slice() {
+        [] => Ok(()),
+        failed => Err(Failure::Check(format!("E502 beyond a tolerance, or no hull: {}", failed.join(", ")))),
+    };
+    let json = || stream::json_judged(validation_json(&cases), &verdict);
+    stream::data(&if arguments.json { json()? } else { validation_page(&cases) })?;
+    verdict
 }

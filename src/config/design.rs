@@ -1,7 +1,7 @@
 //! What a design file means: a family with its parameters, conventions, and what is to be written.
 
 use super::design_targets::design_targets;
-use super::diagnostic::{Diagnostic, Severity, position};
+use super::diagnostic::{Diagnostic, Severity};
 use super::document::{Document, Raw, nearest};
 use super::keys::{FAMILIES, FIGURES, KEYS, Kind};
 use super::reference::{Reference, reference};
@@ -11,6 +11,7 @@ use crate::hydrostatics::{
     SHELL_THICKNESSES, Shell,
 };
 use crate::parametric::{Family, Infeasible, analytic, ucl_cosh};
+use crate::units::{NAME_REMEDY, name_fault};
 
 /// What is to be written about the hull; what is `None` gets the default of the report. Lengths \[m\].
 #[derive(Debug, Clone, PartialEq)]
@@ -100,6 +101,7 @@ impl Design {
             column: place.map(|p| p.column),
             key: place.map_or_else(|| keys.first().map_or_else(String::new, |k| (*k).to_owned()), |p| p.path.clone()),
             message: message.to_owned(),
+            found: String::new(),
             help,
         }
     }
@@ -148,9 +150,7 @@ pub fn read(file: &str, text: &str) -> Result<Design, Vec<Diagnostic>> {
         let refusals = refusals(&design, &document.problems);
         document.problems.extend(refusals);
     }
-    document.problems.sort_by_key(|p| (p.line.unwrap_or(0), p.column.unwrap_or(0)));
-    document.problems.dedup();
-    Err(document.problems)
+    Err(document.finish())
 }
 
 /// Why the family refuses what could be read of a file with other problems; nothing where those problems may be the
@@ -192,10 +192,9 @@ fn interpret(document: &mut Document<'_>) -> Design {
     document.integer("schema");
     let name = document.text("project.name").filter(|name| !name.trim().is_empty());
     if let (Some(text), Some((_, span, _))) = (&name, document.raw("project.name"))
-        && text.chars().any(|c| c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'))
+        && let Some(fault) = name_fault(text)
     {
-        let message = "the name has a control character".to_owned();
-        document.problem("E123", "project.name", &span, message, "write the name on one line of plain text".to_owned());
+        document.problem("E123", "project.name", &span, fault, NAME_REMEDY.to_owned());
     }
     let family_word = match document.entry("project.family") {
         Some(_) => document.word("project.family"),
@@ -215,7 +214,7 @@ fn interpret(document: &mut Document<'_>) -> Design {
     let output = output(document);
     let reference = reference(document);
     let place = |path: String, byte: usize| {
-        let (line, column) = position(document.text, byte);
+        let (line, column) = document.position(byte);
         KeyPosition { path, line, column }
     };
     let places = document.entries.iter().map(|entry| place(entry.key.path(), entry.key_span.start)).collect();
@@ -257,6 +256,8 @@ pub(super) fn require(document: &mut Document<'_>, paths: &[&str], why: &str) {
 
 fn conventions(document: &mut Document<'_>) -> Conventions {
     let mut conventions = Conventions::default();
+    conventions.given.density = document.entry("water.density").is_some();
+    conventions.given.lcb_reference = document.entry("conventions.lcb_reference").is_some();
     if let Some(density) = document.number("water.density") {
         conventions.density = density;
         if !DENSITIES.contains(&density) {

@@ -28,6 +28,8 @@ pub struct Diagnostic {
     pub key: String,
     /// What was found, with numbers, and why it is a problem.
     pub message: String,
+    /// The text of the file that is meant; empty when there is none of its own.
+    pub found: String,
     /// The remedy; empty when the message says it.
     pub help: String,
 }
@@ -51,15 +53,22 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Line and column, both from 1, of a byte position; the column counts characters.
-pub(super) fn position(text: &str, byte: usize) -> (usize, usize) {
-    let mut at = byte.min(text.len());
-    while !text.is_char_boundary(at) {
-        at -= 1;
+impl Diagnostic {
+    /// What the message or its remedy says that it expected; none where neither says it.
+    #[must_use]
+    pub fn expected(&self) -> Option<&str> {
+        [&self.message, &self.help].into_iter().find_map(|text| {
+            let at = [" expected ", "Expected "].iter().find_map(|word| text.find(word).map(|at| at + word.len()));
+            let rest = &text[at.or_else(|| text.strip_prefix("expected ").map(|rest| text.len() - rest.len()))?..];
+            let end = [". ", "; "].iter().filter_map(|stop| rest.find(stop)).min().unwrap_or(rest.len());
+            Some(rest[..end].trim_end_matches('.'))
+        })
     }
-    let before = &text[..at];
-    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The text of a place as it is quoted: what is longer than a line or has several is cut.
+pub(super) fn quoted(text: &str, span: &std::ops::Range<usize>) -> String {
+    text.get(span.clone()).unwrap_or("").lines().next().unwrap_or("").chars().take(80).collect()
 }
 
 #[cfg(test)]
@@ -76,6 +85,7 @@ mod tests {
             column: Some(6),
             key: "form.Cb".into(),
             message: "Cb 0.85 with Cm 0.80 gives Cp 1.06 > 1".into(),
+            found: "0.85".into(),
             help: "Cm must be at least 0.85".into(),
         };
         assert_eq!(
@@ -88,9 +98,16 @@ mod tests {
     }
 
     #[test]
-    fn positions_count_characters() {
-        assert_eq!(position("a\nbé c", 6), (2, 4));
-        assert_eq!(position("a", 99), (1, 2));
-        assert_eq!(position("é", 1), (1, 1));
+    fn what_was_expected_is_read_from_the_message_or_the_remedy() {
+        let of = |message: &str, help: &str| {
+            let (file, key, found) = (String::new(), String::new(), String::new());
+            let (severity, code, line, column) = (Severity::Error, "E122", None, None);
+            let (message, help) = (message.to_owned(), help.to_owned());
+            let problem = Diagnostic { severity, code, file, line, column, key, message, found, help };
+            problem.expected().map(str::to_owned)
+        };
+        assert_eq!(of("form is 3, expected a table. So", "Write [form]").as_deref(), Some("a table"));
+        assert_eq!(of("'x' is not a number", "Expected 0.5 to 1.5 m.").as_deref(), Some("0.5 to 1.5 m"));
+        assert_eq!(of("not expected", "Leave it out"), None);
     }
 }

@@ -1,15 +1,23 @@
 //! What a design file says: the values of the known keys with their places.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::{Diagnostic, Severity, position};
+use super::diagnostic::{Diagnostic, Severity, quoted};
 use super::job::{REMOVED, RENAMED};
 use super::keys::{KEYS, Key};
+use crate::units::{LineStarts, counted};
 
 /// Files longer than this are not design files \[bytes\].
 pub(super) const LARGEST: usize = 1 << 20;
+
+/// Of more problems than these only the number is reported.
+const MOST_PROBLEMS: usize = 50;
+
+/// Words longer than this are misprints of no key.
+const LONGEST_WORD: usize = 60;
 
 /// A value as it stands in the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,6 +66,7 @@ pub(super) struct Entry {
 pub(super) struct Document<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
+    lines: LineStarts,
     /// The keys that such a file has.
     keys: &'static [Key],
     /// What such a file is, "a design".
@@ -65,7 +74,10 @@ pub(super) struct Document<'a> {
     pub(super) entries: Vec<Entry>,
     /// Tables that the file opens, by their path in lower case, with the byte where their name stands.
     pub(super) tables: Vec<(String, usize)>,
+    /// The first problems, at most [`MOST_PROBLEMS`] with a place.
     pub(super) problems: Vec<Diagnostic>,
+    /// Problems beyond these.
+    more: usize,
 }
 
 fn raw(value: &DeValue<'_>) -> Raw {
@@ -91,6 +103,9 @@ fn raw(value: &DeValue<'_>) -> Raw {
 /// The candidate nearest to `word` by edit distance with swaps, when it is near: one edit, and one more for every three
 /// letters; or when one begins with the other.
 pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
+    if word.len() > LONGEST_WORD {
+        return None;
+    }
     let word = word.to_lowercase();
     let allowed = 1 + word.chars().count() / 3;
     let distance = |candidate: &str| match strsim::osa_distance(&word, candidate) {
@@ -112,19 +127,20 @@ impl<'a> Document<'a> {
 
     /// Reads the text of a file with `keys`, which is `noun` in messages.
     pub(super) fn with_keys(file: &'a str, text: &'a str, keys: &'static [Key], noun: &'static str) -> Self {
-        let (entries, tables, problems) = (Vec::new(), Vec::new(), Vec::new());
-        let mut document = Self { file, text, keys, noun, entries, tables, problems };
+        let (entries, tables, problems, lines) = (Vec::new(), Vec::new(), Vec::new(), LineStarts::new(text));
+        let mut document = Self { file, text, lines, keys, noun, entries, tables, problems, more: 0 };
         if text.len() > LARGEST {
             document
                 .whole_file("E120", format!("the file has {} bytes; {noun} file has at most {LARGEST}", text.len()));
             return document;
         }
         let (table, errors) = DeTable::parse_recoverable(text);
+        let mut seen = HashSet::new();
         for error in &errors {
             let span = error.span().unwrap_or(text.len()..text.len());
-            let help = document.syntax_help(&span);
             // A second message about a line is an echo of the first.
-            if document.problems.iter().all(|p| p.line != Some(position(text, span.start).0)) {
+            if seen.insert(document.lines.line(span.start)) {
+                let help = if document.is_full() { String::new() } else { document.syntax_help(&span) };
                 document.problem("E120", "", &span, format!("not TOML: {}", error.message()), help);
             }
         }
@@ -139,8 +155,7 @@ impl<'a> Document<'a> {
 
     /// What usually stands behind a syntax error on a line.
     fn syntax_help(&self, span: &Range<usize>) -> String {
-        let (line, _) = position(self.text, span.start);
-        let line = self.text.lines().nth(line - 1).unwrap_or("");
+        let line = self.lines.text(self.text, self.lines.line(span.start));
         let line = line.split('#').next().unwrap_or("");
         let Some((_, value)) = line.split_once('=') else { return String::new() };
         let value = value.trim();
@@ -159,7 +174,9 @@ impl<'a> Document<'a> {
 
     /// Takes the keys of one table, and of the tables in it.
     fn walk(&mut self, path: &str, table: &DeTable<'_>) {
-        for (name, value) in table {
+        let mut items: Vec<_> = table.iter().collect();
+        items.sort_by_key(|(name, _)| name.span().start);
+        for (name, value) in items {
             let full = if path.is_empty() { name.get_ref().to_string() } else { format!("{path}.{}", name.get_ref()) };
             let lower = full.to_lowercase();
             let renamed = |(_, new): &&(&str, &str)| self.keys.iter().any(|k| k.path() == *new);
@@ -185,7 +202,7 @@ impl<'a> Document<'a> {
                 }
                 (value_ref, Some(key)) => {
                     if let Some(first) = self.entries.iter().find(|e| e.key.path() == key.path()) {
-                        let (line, _) = position(self.text, first.key_span.start);
+                        let line = self.lines.line(first.key_span.start);
                         self.problem(
                             "E126",
                             &full,
@@ -203,6 +220,10 @@ impl<'a> Document<'a> {
     }
 
     fn unknown(&mut self, path: &str, name: &str, full: &str, span: &Range<usize>) {
+        if self.is_full() {
+            self.more += 1;
+            return;
+        }
         let removed = REMOVED.iter().filter(|(old, _)| old.eq_ignore_ascii_case(full));
         let mut served = removed.filter_map(|(_, new)| self.keys.iter().find(|key| key.path() == *new));
         if let Some(key) = served.next() {
@@ -249,6 +270,27 @@ impl<'a> Document<'a> {
         self.entries.iter().find(|entry| entry.key.path() == path)
     }
 
+    /// Line and column, both from 1, of a byte.
+    pub(super) fn position(&self, byte: usize) -> (usize, usize) {
+        self.lines.position(self.text, byte)
+    }
+
+    /// Whether further problems are only counted.
+    fn is_full(&self) -> bool {
+        self.problems.len() >= MOST_PROBLEMS
+    }
+
+    /// The problems in the order of the file, and how many more there are.
+    pub(super) fn finish(mut self) -> Vec<Diagnostic> {
+        self.problems.sort_by_key(|p| (p.line.unwrap_or(0), p.column.unwrap_or(0)));
+        self.problems.dedup();
+        if self.more > 0 {
+            let message = format!("{} not shown", counted(self.more, "more problem"));
+            self.whole_file("E131", message);
+        }
+        self.problems
+    }
+
     /// Notes a problem at a place of the file.
     pub(super) fn problem(
         &mut self,
@@ -258,7 +300,11 @@ impl<'a> Document<'a> {
         message: String,
         help: String,
     ) {
-        let (line, column) = position(self.text, span.start);
+        if self.is_full() {
+            self.more += 1;
+            return;
+        }
+        let (line, column) = self.position(span.start);
         self.problems.push(Diagnostic {
             severity: Severity::Error,
             code,
@@ -267,6 +313,7 @@ impl<'a> Document<'a> {
             column: Some(column),
             key: key.to_owned(),
             message,
+            found: quoted(self.text, span),
             help,
         });
     }
@@ -281,6 +328,7 @@ impl<'a> Document<'a> {
             column: None,
             key: String::new(),
             message,
+            found: String::new(),
             help: String::new(),
         });
     }

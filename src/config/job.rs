@@ -113,9 +113,7 @@ pub fn read_job(file: &str, text: &str) -> Result<JobFile, Vec<Diagnostic>> {
             return Ok(job);
         }
     }
-    document.problems.sort_by_key(|p| (p.line.unwrap_or(0), p.column.unwrap_or(0)));
-    document.problems.dedup();
-    Err(document.problems)
+    Err(document.finish())
 }
 
 /// What an option of a command says, in the words of the job file: `key` is the path of a key, `value` the text of its

@@ -7,7 +7,7 @@
 //! order_along = 3
 //! ```
 
-use super::diagnostic::{Diagnostic, Severity, position};
+use super::diagnostic::{Diagnostic, Severity};
 use super::document::Document;
 use super::keys::{Key, Kind, key};
 use crate::hull::{
@@ -159,6 +159,7 @@ impl MethodFile {
                 column: at.map(|p| p.2),
                 key: format!("method.{}", problem.key),
                 message: format!("method.{}: {}", problem.key, problem.message),
+                found: String::new(),
                 help: problem.help.clone(),
             }
         };
@@ -178,9 +179,7 @@ pub fn read_method(file: &str, text: &str) -> Result<MethodFile, Vec<Diagnostic>
             return Ok(method);
         }
     }
-    document.problems.sort_by_key(|p| (p.line.unwrap_or(0), p.column.unwrap_or(0)));
-    document.problems.dedup();
-    Err(document.problems)
+    Err(document.finish())
 }
 
 fn interpret(document: &mut Document<'_>) -> MethodFile {
@@ -232,7 +231,7 @@ fn interpret(document: &mut Document<'_>) -> MethodFile {
         _ => FitMethod::Graded,
     };
     let places = document.entries.iter().map(|entry| {
-        let (line, column) = position(document.text, entry.key_span.start);
+        let (line, column) = document.position(entry.key_span.start);
         (entry.key.path(), line, column)
     });
     MethodFile { method, table, stated, file: document.file.to_owned(), places: places.collect() }

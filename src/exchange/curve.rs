@@ -9,6 +9,7 @@
 use serde_json::{Value, json};
 
 use super::fairing::COMPROMISE_LINE;
+use super::fault::LARGEST;
 use super::number::{cell, json_number, line};
 use crate::fairing::curve::{Contradictions, CurvePoint, FairCurve, FairStatus};
 use crate::fairing::inflections::Witness;
@@ -234,6 +235,10 @@ fn point(
         }
         if let CellEntry::Length(value) = &mut reading.entry {
             *value *= column.factor();
+            if value.is_nan() || value.abs() > LARGEST {
+                let remedy = format!("Expected at most {LARGEST:e} m, or m2 of an area.");
+                return Err((format!("'{text}' is of no ship"), remedy));
+            }
         }
         Ok(reading)
     };
@@ -332,7 +337,7 @@ fn witness(points: &[CurvePoint], witness: &Witness) -> Value {
 
 /// `fairing.json` of a curve. The list of inflections has one entry, the curve, with places, proof and refused numbers.
 #[must_use]
-pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradictions, seconds: f64) -> Value {
+pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradictions) -> Value {
     let certificate = &fair.certificate;
     let least = &fair.least;
     let lines: Vec<Value> = fair
@@ -411,7 +416,7 @@ pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradiction
         "infeasible": infeasible(fair),
         "suspects": suspects,
         "corners": corners,
-        "work": { "solves": fair.work[0], "iterations": fair.work[1], "refreshes": fair.refreshes, "seconds": json_number(Some(seconds)) },
+        "work": { "solves": fair.work[0], "iterations": fair.work[1], "refreshes": fair.refreshes },
     })
 }
 

@@ -11,7 +11,7 @@ use crate::fairing::smoothing::Trial;
 use crate::fairing::surface::Origin;
 use crate::hull::{LineKind, OffsetStation};
 use crate::qp::{Progress, Status};
-use crate::units::{Notation, counted};
+use crate::units::{Notation, counted, unguarded};
 
 /// Why a text is no file of `fair`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -368,7 +368,7 @@ pub fn read_changes(text: &str, lines: &TableLines, offsets: Option<usize>) -> R
         };
         let x = number(1)?;
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-9;
-        let station = lines.stations.iter().position(|s| near(s.x, x) && s.name == field(8));
+        let station = lines.stations.iter().position(|s| near(s.x, x) && s.name == unguarded(field(8)));
         let station = station.ok_or_else(|| wrong(8, "a station of the table in fairing.json, with its x"))?;
         let counted = |text: &str| text.parse::<usize>().ok();
         let origin = match (field(0), field(0).strip_prefix("point ")) {

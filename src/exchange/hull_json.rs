@@ -13,6 +13,7 @@ use super::hydrostatics::ConventionsRecord;
 use crate::hull::{Hull, HullError, PrincipalParticulars};
 use crate::hydrostatics::Conventions;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE, SplineError};
+use crate::units::{NAME_REMEDY, name_fault};
 
 const FORMAT: &str = "loftsman-hull";
 const VERSION: u64 = 1;
@@ -253,14 +254,16 @@ pub fn read_hull(text: &str) -> Result<HullFile, HullFileError> {
     if head.version != VERSION {
         return Err(HullFileError::Version(head.version));
     }
-    let record: Record = json(text)?;
+    let mut record: Record = json(text)?;
     let mut particulars = PrincipalParticulars::from(&record.particulars);
     // Older programs supplied a draught that nobody had stated, and marked it.
     if record.conventions.design_draught_assumed {
         particulars.draught = None;
     }
+    record.conventions.without_draught = particulars.draught.is_none();
     let conventions: Conventions = record.conventions.into();
-    let faults = faults(&particulars, &conventions);
+    let name = name_fault(&record.name).map(|fault| format!("name: {fault}. {NAME_REMEDY}"));
+    let faults: Vec<String> = name.into_iter().chain(faults(&particulars, &conventions)).collect();
     if !faults.is_empty() {
         return Err(HullFileError::Values(faults));
     }

@@ -7,8 +7,8 @@ use super::hull_json::write_hull;
 use super::number::{cell, json_number, line};
 use crate::hull::{Hull, StationNumbers};
 use crate::hydrostatics::{
-    Assumed, CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES,
-    Shell,
+    Assumed, CoefficientLength, Conventions, CurvesOfForm, Given, Hydrostatics, LcbReference, PrismaticSection,
+    QUANTITIES, Shell,
 };
 
 /// Conventions as they stand in JSON files.
@@ -30,6 +30,12 @@ pub(super) struct ConventionsRecord {
     /// Symbols of the other main dimensions that were assumed; written only where there are some.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     dimensions_assumed: Vec<String>,
+    /// What was given of L_PP, B, T, LCB and density; written only where it is not the first three alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    given: Option<Vec<String>>,
+    /// Whether the hull has no design draught; where a file says what was given.
+    #[serde(skip)]
+    pub(super) without_draught: bool,
     /// Written only where it is not 20.
     #[serde(skip_serializing_if = "Option::is_none")]
     station_spaces: Option<u32>,
@@ -70,6 +76,23 @@ enum ShellRecord {
     Thickness(f64),
 }
 
+fn given_words(given: Given) -> Vec<String> {
+    let all = [
+        ("L_PP", given.length),
+        ("B", given.breadth),
+        ("T", given.draught == Some(true)),
+        ("LCB", given.lcb_reference),
+        ("density", given.density),
+    ];
+    all.into_iter().filter(|(_, given)| *given).map(|(word, _)| word.to_owned()).collect()
+}
+
+fn given_of(words: &[String]) -> Given {
+    let has = |word: &str| words.iter().any(|one| one == word);
+    let draught = Some(has("T"));
+    Given { length: has("L_PP"), breadth: has("B"), draught, lcb_reference: has("LCB"), density: has("density") }
+}
+
 impl From<&Conventions> for ConventionsRecord {
     fn from(c: &Conventions) -> Self {
         Self {
@@ -97,6 +120,8 @@ impl From<&Conventions> for ConventionsRecord {
             kg: c.centre_of_gravity_height,
             design_draught_assumed: false,
             dimensions_assumed: c.assumed.symbols().into_iter().map(str::to_owned).collect(),
+            given: (c.given != Given::default()).then(|| given_words(c.given)),
+            without_draught: false,
             station_spaces: Some(c.stations.spaces).filter(|&spaces| spaces != StationNumbers::default().spaces),
             station_zero: c.stations.from_forward.then_some(LcbWord::ForwardPerpendicular),
         }
@@ -106,6 +131,8 @@ impl From<&Conventions> for ConventionsRecord {
 impl From<ConventionsRecord> for Conventions {
     fn from(record: ConventionsRecord) -> Self {
         let defaults = Self::default();
+        let given = record.given.as_ref().map_or(Given::default(), |words| given_of(words));
+        let draught = given.draught.filter(|_| !record.without_draught);
         let assumed = |symbol: &str| record.dimensions_assumed.iter().any(|one| one == symbol);
         Self {
             density: record.density.unwrap_or(defaults.density),
@@ -131,6 +158,7 @@ impl From<ConventionsRecord> for Conventions {
             keel_thickness: record.keel_thickness.unwrap_or(defaults.keel_thickness),
             centre_of_gravity_height: record.kg,
             assumed: Assumed { length: assumed("L_PP"), breadth: assumed("B"), depth: assumed("D") },
+            given: Given { draught, ..given },
             stations: StationNumbers {
                 spaces: record.station_spaces.filter(|&n| n >= 1).unwrap_or(defaults.stations.spaces),
                 from_forward: matches!(record.station_zero, Some(LcbWord::ForwardPerpendicular)),
@@ -153,11 +181,15 @@ pub fn conventions_json(conventions: &Conventions) -> Value {
     value
 }
 
-/// One row as a JSON object; a quantity that is not defined is null.
+/// One row as a JSON object; a quantity that is not defined is null. Of a body that is not symmetrical it has YCB \[m\]
+/// and, where GM is known, HEEL \[deg\].
 #[must_use]
 pub fn row_json(row: &Hydrostatics) -> Value {
     let mut object: Map<String, Value> =
         QUANTITIES.iter().map(|quantity| (quantity.key.to_owned(), json_number((quantity.value)(row)))).collect();
+    for (key, value) in [("YCB", row.transverse_centre), ("HEEL", row.heel)] {
+        object.extend(value.map(|value| (key.to_owned(), json_number(Some(value)))));
+    }
     if let Some(remark) = &row.remark {
         object.insert("remark".into(), json!(remark));
     }
@@ -218,6 +250,7 @@ mod tests {
                 keel_thickness: 0.015,
                 centre_of_gravity_height: Some(7.5),
                 assumed: Assumed { breadth: lcb_reference == LcbReference::Percent, ..Assumed::default() },
+                given: Given { density: lcb_reference == LcbReference::Percent, ..Given::default() },
                 stations: StationNumbers {
                     spaces: if shell == Shell::None { 20 } else { 10 },
                     from_forward: lcb_reference == LcbReference::Midship,

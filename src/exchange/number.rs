@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 
+use crate::units::guarded;
+
 /// The nearest multiple of 10^-decimals, for numbers that people read: what is beyond is rounding of how it was computed.
 pub(super) fn to_decimals(value: f64, decimals: usize) -> f64 {
     let unit = 10f64.powi(decimals as i32);
@@ -21,13 +23,14 @@ pub(super) fn cell(value: Option<f64>) -> String {
     }
 }
 
-/// One CSV line with quotes where they are needed.
+/// One CSV line with quotes where they are needed; no text of it is a formula.
 pub(super) fn line(fields: &[String]) -> String {
     let quote = |field: &String| {
+        let field = guarded(field);
         if field.contains([',', '"', '\n', '\r']) {
             format!("\"{}\"", field.replace('"', "\"\""))
         } else {
-            field.clone()
+            field.into_owned()
         }
     };
     let mut line = fields.iter().map(quote).collect::<Vec<_>>().join(",");
@@ -45,6 +48,7 @@ mod tests {
         assert_eq!(cell(Some(-0.0)), "0");
         assert_eq!(cell(Some(0.1)), "0.1");
         assert_eq!(json_number(Some(f64::INFINITY)), Value::Null);
+        assert_eq!(line(&["=a,b".into(), "-1.5".into(), "-".into()]), "\"'=a,b\",-1.5,-\n");
         assert_eq!(line(&["a,b".into(), "c\"d".into(), "e".into()]), "\"a,b\",\"c\"\"d\",e\n");
     }
 }

@@ -121,6 +121,8 @@ pub struct Conventions {
     pub centre_of_gravity_height: Option<f64>,
     /// Main dimensions that were assumed, because the table that the hull was laid through does not state them.
     pub assumed: Assumed,
+    /// What the user stated, of that which every page names.
+    pub given: Given,
     /// How stations are numbered.
     pub stations: StationNumbers,
 }
@@ -156,6 +158,62 @@ impl Assumed {
     }
 }
 
+/// Which values a user stated, in a design or a command. The others come from a table, or were assumed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Given {
+    /// L_PP.
+    pub length: bool,
+    /// B.
+    pub breadth: bool,
+    /// T; none where the hull has no design draught.
+    pub draught: Option<bool>,
+    /// Where the printed LCB is measured from.
+    pub lcb_reference: bool,
+    /// Density of the water.
+    pub density: bool,
+}
+
+/// Of a hull whose dimensions were stated and whose water was not.
+impl Default for Given {
+    fn default() -> Self {
+        Self { length: true, breadth: true, draught: Some(true), lcb_reference: false, density: false }
+    }
+}
+
+impl Given {
+    /// Of a table; `draught` says whether the user stated that of the hull, where it has one.
+    #[must_use]
+    pub fn of_table(draught: Option<bool>) -> Self {
+        Self { length: false, breadth: false, draught, ..Self::default() }
+    }
+}
+
+impl Conventions {
+    /// What is given, from the table and assumed of L_PP, B, T, the origin of LCB and the density, in one sentence.
+    #[must_use]
+    pub fn sources(&self) -> String {
+        let Given { length, breadth, draught, lcb_reference, density } = self.given;
+        let all = [
+            ("L_PP", Some(length && !self.assumed.length), self.assumed.length),
+            ("B", Some(breadth && !self.assumed.breadth), self.assumed.breadth),
+            ("T", draught, false),
+            ("LCB origin", Some(lcb_reference), true),
+            ("density", Some(density), true),
+        ];
+        let of = |word: &str, is: fn(bool, bool) -> bool| {
+            let names = all.into_iter().filter(|(_, given, assumed)| given.is_some_and(|given| is(given, *assumed)));
+            let names: Vec<&str> = names.map(|(name, _, _)| name).collect();
+            (!names.is_empty()).then(|| format!("{word}: {}", names.join(", ")))
+        };
+        let parts = [
+            of("given", |given, _| given),
+            of("from the table", |given, assumed| !given && !assumed),
+            of("assumed", |given, assumed| !given && assumed),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+    }
+}
+
 /// ` (assumed)` where it was, for what follows a dimension in a line of text.
 #[must_use]
 pub fn assumed_mark(assumed: bool) -> &'static str {
@@ -173,6 +231,7 @@ impl Default for Conventions {
             keel_thickness: 0.0,
             centre_of_gravity_height: None,
             assumed: Assumed::default(),
+            given: Given::default(),
             stations: StationNumbers::default(),
         }
     }
@@ -292,6 +351,17 @@ mod tests {
         assert!(text(Conventions::default()).contains("BM_L"));
         let known = Conventions { centre_of_gravity_height: Some(6.5), ..Conventions::default() };
         assert!(text(known).contains("GM_L / (100 Lpp); KG = 6.5 m"));
+    }
+
+    #[test]
+    fn what_is_given_and_what_is_not_is_one_sentence() {
+        let of = |given: Given, assumed: Assumed| Conventions { given, assumed, ..Conventions::default() }.sources();
+        let none = Assumed::default();
+        assert_eq!(of(Given::default(), none), "given: L_PP, B, T; assumed: LCB origin, density");
+        let table = Given { density: true, ..Given::of_table(Some(false)) };
+        let breadth = Assumed { breadth: true, ..none };
+        assert_eq!(of(table, breadth), "given: density; from the table: L_PP, T; assumed: B, LCB origin");
+        assert!(!of(Given::of_table(None), none).contains('T'));
     }
 
     #[test]

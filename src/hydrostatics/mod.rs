@@ -16,11 +16,11 @@ mod volume;
 mod waterplane;
 
 pub use conventions::{
-    Assumed, CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection, SHELL_FACTORS,
-    SHELL_THICKNESSES, Shell, Statement, assumed_mark,
+    Assumed, CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, Given, LcbReference, PrismaticSection,
+    SHELL_FACTORS, SHELL_THICKNESSES, Shell, Statement, assumed_mark,
 };
 pub use draughts::default_draughts;
 pub use quantity::{QUANTITIES, Quantity};
-pub use row::Hydrostatics;
+pub use row::{Hydrostatics, LEAST_GM};
 pub use skin::{wetted_surface, wetted_surface_gradient};
 pub use table::CurvesOfForm;

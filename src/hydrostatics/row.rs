@@ -100,9 +100,22 @@ pub struct Hydrostatics {
     pub lateral_centre_z: Option<f64>,
     /// Immersed transom area [m^2].
     pub transom_area: f64,
+    /// y of the centre of buoyancy \[m\], + to port, of a body that is not symmetrical.
+    pub transverse_centre: Option<f64>,
+    /// Angle of heel to port by that \[deg\], where KG is known and GM is positive.
+    pub heel: Option<f64>,
     /// Remark on the row (draught above the deck at side, below the keel); none for an ordinary row.
     pub remark: Option<String>,
 }
+
+/// LCB further from midship is hardly any ship's [% of Lpp].
+const USUAL_LCB: f64 = 6.0;
+
+/// Half angles of entrance of ships \[deg\].
+const USUAL_ENTRANCE: std::ops::RangeInclusive<f64> = 3.0..=70.0;
+
+/// Least initial metacentric height of the IS Code 2008 \[m\].
+pub const LEAST_GM: f64 = 0.15;
 
 /// Relative error of a quantity beyond which it is none of rounding.
 const ROUNDING: f64 = 1e-6;
@@ -143,6 +156,31 @@ impl Hydrostatics {
             ));
         }
         found
+    }
+
+    /// What hardly any ship has at its design draught, each with the key of the target behind it: LCB far from midship,
+    /// ends that are blunter than a quarter of a circle or finer than a blade.
+    #[must_use]
+    pub fn unusual(&self) -> Vec<(&'static str, String)> {
+        let lcb = self.lcb_percent.filter(|percent| percent.abs() > USUAL_LCB);
+        let lcb = lcb.map(|lcb| {
+            ("LCB", format!("LCB is {lcb:+.2} % of Lpp from midship; usual are -{USUAL_LCB} to +{USUAL_LCB} %"))
+        });
+        let entrance = self.half_angle_of_entrance.filter(|angle| *angle > 0.0 && !USUAL_ENTRANCE.contains(angle));
+        let entrance = entrance.map(|angle| {
+            let [least, most] = [USUAL_ENTRANCE.start(), USUAL_ENTRANCE.end()];
+            (
+                "entrance_length",
+                format!("the half angle of entrance is {angle:.1} degrees; usual are {least} to {most}"),
+            )
+        });
+        lcb.into_iter().chain(entrance).collect()
+    }
+
+    /// Whether GM is known and less than ships must have at sea (IS Code 2008, part A, 2.2.4).
+    #[must_use]
+    pub fn is_tender(&self) -> bool {
+        self.gm_transverse.is_some_and(|gm| gm < LEAST_GM)
     }
 
     /// Coefficients above 1 by more than `slack`, which the length, breadth and draught they are referred to do not hold, in

@@ -232,6 +232,8 @@ pub(super) fn row(
         lateral_centre_x: over(body.lateral_x, body.lateral),
         lateral_centre_z: over(body.lateral_z, body.lateral),
         transom_area: body.transom,
+        transverse_centre: None,
+        heel: None,
         remark: None,
     }
 }

@@ -366,9 +366,12 @@ impl CurvesOfForm {
                 let (body, plane) = (sums.skin.body(), sums.line.waterplane());
                 let beside = Some(sums.skin.moment_y / body.volume)
                     .filter(|y| body.volume > 0.0 && y.abs() > ASYMMETRIC * (bounds[1][1] - bounds[0][1]));
-                let beside = beside.map(|y| format!("centre of buoyancy {y:.3} m to port of the centreplane"));
-                let remark = if near_top(draught) { None } else { remark(draught, &bounds) }.or(beside);
-                Hydrostatics { remark, ..row(particulars, draught, conventions, &body, &plane, &sections) }
+                let row = row(particulars, draught, conventions, &body, &plane, &sections);
+                // The moment of the weight on the centreplane and of the buoyancy beside it.
+                let heel = beside.zip(row.gm_transverse.filter(|gm| *gm > 0.0)).map(|(y, gm)| (y / gm).atan());
+                let remark = if near_top(draught) { None } else { remark(draught, &bounds) };
+                let remark = remark.or_else(|| beside.map(|y| off_centreplane(y, heel)));
+                Hydrostatics { remark, transverse_centre: beside, heel: heel.map(f64::to_degrees), ..row }
             })
             .collect();
         let found = |draught: &f64| {
@@ -382,6 +385,14 @@ impl CurvesOfForm {
         let rows = draughts.iter().map(|draught| found(draught).unwrap_or_else(|| empty(draught))).collect();
         Self { conventions: *conventions, rows }
     }
+}
+
+/// Centre of buoyancy \[m\] and heel \[rad\] of a body that is not symmetrical.
+fn off_centreplane(y: f64, heel: Option<f64>) -> String {
+    let side = if y > 0.0 { "port" } else { "starboard" };
+    let heel =
+        heel.map(|heel| format!(", which heels it by {:.2} degrees", heel.to_degrees().abs())).unwrap_or_default();
+    format!("centre of buoyancy YCB {y:.3} m, to {side} of the centreplane{heel}")
 }
 
 fn remark(draught: f64, bounds: &[[f64; 3]; 2]) -> Option<String> {

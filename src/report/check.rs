@@ -57,10 +57,10 @@ pub struct Check {
     pub notes: Vec<String>,
 }
 
-/// Reads and checks the table of a file. A table that cannot be read is a check with problems.
+/// Reads and checks the table of a file. One with rows or cells that cannot be read is a check with problems.
 ///
 /// # Errors
-/// [`Failure::FileSystem`].
+/// [`Failure::FileSystem`]; [`Failure::Input`] where no table is found in the file.
 pub fn check_table(path: &Path) -> Result<Check, Failure> {
     match read_table_file(path) {
         Ok((table, notes)) => {
@@ -86,7 +86,7 @@ pub fn check_table(path: &Path) -> Result<Check, Failure> {
                     .collect(),
             })
         }
-        Err(Failure::Input(messages)) => {
+        Err(Failure::Input(messages)) if messages.iter().any(is_of_a_line) => {
             let (errors, warnings): (Vec<_>, Vec<_>) =
                 messages.into_iter().partition(|message| message.severity == config::Severity::Error);
             Ok(Check {
@@ -101,6 +101,10 @@ pub fn check_table(path: &Path) -> Result<Check, Failure> {
         }
         Err(failure) => Err(failure),
     }
+}
+
+fn is_of_a_line(message: &Diagnostic) -> bool {
+    message.severity == config::Severity::Error && message.line.is_some()
 }
 
 fn of_table(problem: &TableProblem) -> CheckProblem {

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::export::{ExportFormat, ExportSettings, export};
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
-use super::source::{Overrides, read_bytes, read_source_with, read_table_file_with, sidecar};
+use super::source::{Overrides, ending, read_bytes, read_source_with, read_table_file_with, sidecar};
 use crate::exchange::{
     Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, section_of, write_britfair,
     write_delftship, write_freeship, write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl,
@@ -71,8 +71,9 @@ pub fn convert_table(path: &Path, overrides: &Overrides, writing: TableWriting) 
 }
 
 /// Whether a file is a hull or a design by its name.
-pub(super) fn is_hull(path: &Path) -> bool {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+#[must_use]
+pub fn is_hull(path: &Path) -> bool {
+    let extension = ending(path);
     path.is_dir() || matches!(extension.as_str(), "json" | "toml" | "hgf" | "huf")
 }
 

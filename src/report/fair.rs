@@ -25,7 +25,7 @@ use crate::fairing::job::{Holding, Job, JobError};
 use crate::fairing::outcome::Outcome;
 use crate::fairing::record::FairRecord;
 use crate::hull::{FitError, Functional, Hull, HullError, OffsetTable, TableLayout};
-use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics};
+use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Given, Hydrostatics};
 use crate::qp::Status;
 use crate::units::Notation;
 
@@ -150,7 +150,10 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     let job = request.for_table(&table, length).map_err(Failure::of_messages)?;
     let density = request.density.unwrap_or(Conventions::default().density);
     let assumed = Assumed::of(&table.stated);
-    let conventions = Conventions { density, assumed, ..Conventions::default() };
+    let by_user = request.stated.draught.is_some();
+    let given = Given::of_table(table.stated.draught.map(|_| by_user));
+    let given = Given { density: request.density.is_some(), ..given };
+    let conventions = Conventions { density, assumed, given, ..Conventions::default() };
     Ok(FairJob { table, job, reading, conventions, grades: false, table_file, sidecar, request, inputs, files })
 }
 

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use serde_json::Value;
 
@@ -85,8 +84,6 @@ pub struct FairedCurve {
     pub notes: Vec<String>,
     /// Whether ordinates are lengths; else they are areas.
     pub lengths: bool,
-    /// Time taken \[s\].
-    pub seconds: f64,
     path: PathBuf,
 }
 
@@ -121,7 +118,6 @@ pub fn faired_curve(job: &CurveJob) -> Result<FairedCurve, Failure> {
     }
     let mut notes = table.notes;
     notes.extend(closed_ends(&mut points));
-    let clock = Instant::now();
     let refused = |error: crate::fairing::curve::CurveError| input("E342", None, error.to_string(), String::new());
     let quantum = table.quantum;
     let found = contradictions(&points, &CurveSettings { quantum, ..job.settings.clone() }).map_err(refused)?;
@@ -148,8 +144,8 @@ pub fn faired_curve(job: &CurveJob) -> Result<FairedCurve, Failure> {
     };
     let mut fair = fair_curve(&points, &settings).map_err(refused)?;
     fair.left_out(out);
-    let (seconds, lengths, path) = (clock.elapsed().as_secs_f64(), table.lengths, path.clone());
-    Ok(FairedCurve { points, found, fair, notes, lengths, seconds, path })
+    let (lengths, path) = (table.lengths, path.clone());
+    Ok(FairedCurve { points, found, fair, notes, lengths, path })
 }
 
 /// Locks the ends that are 0 of a curve that is nowhere below: a waterline closes there, a curve of areas begins.
@@ -274,7 +270,7 @@ pub fn fair_curve_files(done: &FairedCurve, figures: bool) -> Result<Vec<OutputF
 /// `fairing.json`.
 #[must_use]
 pub fn fair_curve_json(done: &FairedCurve) -> Value {
-    curve_json(&done.points, &done.fair, &done.found, done.seconds)
+    curve_json(&done.points, &done.fair, &done.found)
 }
 
 /// What is printed.
@@ -371,6 +367,6 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
         "certificate   gap {:.1e}, stationarity {:.1e}, largest violation {:.1e}",
         c.gap, c.stationarity, c.max_violation
     ));
-    line(format!("work          {} programs, {} iterations, {:.3} s", fair.work[0], fair.work[1], done.seconds));
+    line(format!("work          {} programs, {} iterations", fair.work[0], fair.work[1]));
     page
 }

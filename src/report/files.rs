@@ -1,11 +1,16 @@
 //! Writing of files: all or nothing is checked first, and each file appears whole.
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use super::failure::Failure;
+use super::staging::{Made, Staging};
 use crate::exchange::{read_manifest_outputs, sha256, workbook};
 use crate::hull::TableForm;
+
+/// The file that lists the others with their hashes.
+pub(super) const MANIFEST: &str = "manifest.json";
 
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,12 +53,20 @@ pub fn same_path(a: &Path, b: &Path) -> bool {
     matches!((real(a), real(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Makes a folder that is not there; an empty one is the folder that the program runs in.
-fn make(folder: &Path) -> Result<(), Failure> {
-    if folder.as_os_str().is_empty() {
-        return Ok(());
+/// Files that a run reads, by their true paths: looked up once, however many files are written.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Inputs(HashSet<PathBuf>);
+
+impl Inputs {
+    /// Those of these paths that are there.
+    #[must_use]
+    pub fn of<P: AsRef<Path>>(paths: &[P]) -> Self {
+        Self(paths.iter().filter_map(|path| Path::new(".").join(path).canonicalize().ok()).collect())
     }
-    fs::create_dir_all(folder).map_err(|error| Failure::FileSystem { act: "make", path: folder.to_owned(), error })
+
+    fn has(&self, path: &Path) -> bool {
+        path.canonicalize().is_ok_and(|path| self.0.contains(&path))
+    }
 }
 
 /// Where the files of a run go.
@@ -62,7 +75,7 @@ pub struct Destination<'a> {
     /// Their folder, which is made when it is not there.
     pub folder: &'a Path,
     /// Files that the run reads; none of them is written over or removed.
-    pub inputs: &'a [PathBuf],
+    pub inputs: &'a Inputs,
     /// Whether other files that are there already are overwritten.
     pub force: bool,
 }
@@ -95,7 +108,7 @@ impl Destination<'_> {
     }
 
     fn is_read(&self, path: &Path) -> bool {
-        self.inputs.iter().any(|input| same_path(input, path))
+        self.inputs.has(path)
     }
 
     /// Writes the files of one run with [`Destination::write`]. With `force`, files that the manifest of an earlier run
@@ -104,7 +117,7 @@ impl Destination<'_> {
     /// # Errors
     /// Those of [`Destination::write`].
     pub fn write_run(&self, files: &[OutputFile]) -> Result<(), Failure> {
-        let manifest = self.folder.join("manifest.json");
+        let manifest = self.folder.join(MANIFEST);
         let earlier = if self.force { fs::read_to_string(manifest).unwrap_or_default() } else { String::new() };
         self.write(files)?;
         for entry in read_manifest_outputs(&earlier) {
@@ -126,28 +139,36 @@ impl Destination<'_> {
         Ok(())
     }
 
-    /// Writes `files`, all or none of them as [`Destination::check`] says. Each is written under another name beside
-    /// its place and then renamed.
+    /// Writes `files`, all or none of them as [`Destination::check`] says. All are written in a folder beside their
+    /// place first: a new folder appears with all of them by one rename; in a folder that is there they are renamed one
+    /// by one, the manifest last, so that its hashes hold only of a whole set.
     ///
     /// # Errors
     /// Those of [`Destination::check`]; [`Failure::FileSystem`].
     pub fn write(&self, files: &[OutputFile]) -> Result<(), Failure> {
         self.check(files.iter().map(|file| file.name.as_str()))?;
-        make(self.folder)?;
+        let here = Path::new(".");
+        let is_new = !self.folder.as_os_str().is_empty() && !self.folder.exists();
+        let within = if is_new { self.folder.parent().unwrap_or(here) } else { self.folder };
+        let within = if within.as_os_str().is_empty() { here } else { within };
+        let failure = |act, path: &Path, error| Failure::FileSystem { act, path: path.to_owned(), error };
+        let mut made = Made::default();
+        made.folder(within).map_err(|error| failure("make", self.folder, error))?;
+        let staging = Staging::within(within).map_err(|error| failure("write into", within, error))?;
         for file in files {
-            let path = self.folder.join(&file.name);
-            path.parent().map_or(Ok(()), make)?;
-            // What a link points to is written, not the link.
-            let path = path.canonicalize().unwrap_or(path);
-            let leaf = path.file_name().unwrap_or_default().to_string_lossy();
-            let temporary = path.with_file_name(format!(".{leaf}.{}.part", std::process::id()));
-            let written = fs::write(&temporary, &file.contents).and_then(|()| fs::rename(&temporary, &path));
-            if let Err(error) = written {
-                // The half-written file is of no use; that it cannot be removed either adds nothing to the message.
-                let _ = fs::remove_file(&temporary);
-                return Err(Failure::FileSystem { act: "write", path, error });
+            let put = staging.put(&file.name, &file.contents);
+            put.map_err(|error| failure("write", &self.folder.join(&file.name), error))?;
+        }
+        if is_new {
+            fs::rename(staging.folder(), self.folder).map_err(|error| failure("make", self.folder, error))?;
+        } else {
+            let (last, others): (Vec<_>, Vec<_>) = files.iter().partition(|file| file.name == MANIFEST);
+            for file in others.into_iter().chain(last) {
+                let path = self.folder.join(&file.name);
+                staging.settle(&file.name, &path, &mut made).map_err(|error| failure("write", &path, error))?;
             }
         }
+        made.keep();
         Ok(())
     }
 }

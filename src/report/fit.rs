@@ -23,7 +23,7 @@ use crate::fairing::{Suspects, suspects};
 use crate::hull::{
     Chart, FitError, FitMethod, Fitted, Hull, OffsetTable, PointResidual, StatedParticulars, VolumeEstimate,
 };
-use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics, default_draughts};
+use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Given, Hydrostatics, default_draughts};
 use crate::plot::{Figure, FigureInputs};
 use crate::units::counted;
 
@@ -249,8 +249,11 @@ fn summary(
 pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failure> {
     let fitted = Hull::fit(&job.table, &job.method.method).map_err(|error| refusal(job, error))?;
     let assumed = Assumed::of(&job.table.stated);
-    let conventions = Conventions { assumed, ..Conventions::default() };
     let particulars = fitted.hull.particulars();
+    // A method file states a draught as the command does.
+    let by_user = job.draught_of_command || job.method.stated.draught.is_some();
+    let given = Given::of_table(particulars.draught.map(|_| by_user));
+    let conventions = Conventions { assumed, given, ..Conventions::default() };
     // All draughts in one pass over the surface.
     let mut draughts = default_draughts(particulars.draught, particulars.depth);
     draughts.extend(particulars.draught);

@@ -83,8 +83,12 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
         design.output.buttocks.clone().unwrap_or_else(|| default_buttocks(&hull).into_iter().map(decimal).collect());
     let offsets = OffsetTable::from_hull(&hull, &stations(design, &hull), &waterlines, &buttocks);
 
-    let remarks: Vec<Diagnostic> =
+    let mut remarks: Vec<Diagnostic> =
         generated.remarks.iter().map(|r| design.diagnose(Severity::Warning, r.code, &[r.key], &r.message)).collect();
+    // The analytic bodies are what they are.
+    let of_a_ship = matches!(design.family, Family::Cosh(_) | Family::UclCosh(_));
+    let unusual = design_row.unusual().into_iter().filter(|_| of_a_ship);
+    remarks.extend(unusual.map(|(key, message)| design.diagnose(Severity::Warning, "W204", &[key], &message)));
     let summary = SummaryFile {
         name: design.name.clone(),
         family: family_word(&design.family),
@@ -114,7 +118,7 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
             })
             .collect(),
         conventions: conventions_json(&design.conventions),
-        remarks: generated.remarks.iter().map(|r| format!("{} {}", r.code, r.message)).collect(),
+        remarks: remarks.iter().map(|r| format!("{} {}", r.code, r.message)).collect(),
     };
 
     let mut files = vec![

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use super::convert::is_hull;
 use super::failure::{Failure, problem};
-use super::source::{Overrides, read_bytes, read_source_with, sidecar, source_of};
+use super::source::{Overrides, ending, read_bytes, read_source_with, sidecar, source_of};
 use super::verdict::is_warning;
 use crate::config::{Diagnostic, Severity};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{AFLOAT, AT_EDGE, Hull, HullError, PrincipalParticulars, TriangleMesh};
-use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, default_draughts};
+use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Given, Hydrostatics, default_draughts};
 
 /// Part of the height of a body by which its lowest point may be from the base line.
 const AT_BASE: f64 = 0.2;
@@ -127,7 +127,19 @@ impl HydrostaticBody {
             let message = format!("coefficients are above 1: {found}");
             Diagnostic { severity: Severity::Warning, ..problem("W353", &self.path, message, dimensions) }
         });
-        Ok((table, warnings.iter().map(ToString::to_string).collect()))
+        let warnings = warnings.into_iter().chain(self.unusual(&table)).map(|warning| warning.to_string());
+        Ok((table, warnings.collect()))
+    }
+
+    /// What hardly any ship has at the design draught, where a row is at it.
+    fn unusual(&self, table: &CurvesOfForm) -> Option<Diagnostic> {
+        let draught = self.particulars.draught?;
+        let row = table.rows.iter().find(|row| (row.draught - draught).abs() <= 1e-9 * draught)?;
+        let found: Vec<String> = row.unusual().into_iter().map(|(_, found)| found).collect();
+        let remedy = "Check where AP is, and the forward axis";
+        let message = || format!("at {draught:.3} m {}", found.join(", "));
+        let problem = || problem("W354", &self.path, message(), remedy);
+        (!found.is_empty()).then(|| Diagnostic { severity: Severity::Warning, ..problem() })
     }
 
     /// The corners of a box that holds the body \[m\]: triangles lie inside a surface that bends outward.
@@ -179,7 +191,7 @@ pub fn read_hydrostatic_body(path: &Path) -> Result<HydrostaticBody, Failure> {
 /// Those of [`read_hydrostatic_body`]; [`Failure::Usage`] when conventions are given for a hull, or a draught at which the
 /// body does not float.
 pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<HydrostaticBody, Failure> {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let extension = ending(path);
     let design = matches!(extension.as_str(), "toml" | "hgf" | "huf");
     let source = if path.is_dir() || design {
         read_source_with(path, overrides)?
@@ -239,6 +251,11 @@ fn of_body(path: &Path, read: ReadBody) -> HydrostaticBody {
         let afloat = row.first().map_or(0.0, |row| row.waterline_breadth);
         particulars.breadth = if afloat > 0.0 { afloat } else { particulars.breadth };
     }
+    let conventions = Conventions {
+        assumed: Assumed::of(&stated),
+        given: Given::of_table(particulars.draught.map(|_| false)),
+        ..conventions
+    };
     let mut notes: Vec<String> = read.notes.iter().map(ToString::to_string).collect();
     if stated.length_between_perpendiculars.is_none() {
         notes.push(format!(

@@ -30,26 +30,27 @@ mod result_page;
 mod result_tables;
 mod self_test;
 mod source;
+mod staging;
 mod validate;
 mod verdict;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
 pub use codes::{CODES, Explanation, codes_json, codes_list, codes_page, codes_text, explanation, explanations};
-pub use convert::{Converted, convert_file, convert_table};
+pub use convert::{Converted, convert_file, convert_table, is_hull};
 pub use export::{ExportFormat, ExportSettings, Exported, draught_of, export};
-pub use failure::Failure;
+pub use failure::{COMMAND_LINE, Failure};
 pub use fair::{FairJob, FairOutputs, fair_outputs, fair_outputs_with_progress, read_fair};
 pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve};
 pub use fair_page::{fair_line, fair_page};
 pub use fair_short::fair_summary;
-pub use files::{Destination, OutputFile, same_path};
+pub use files::{Destination, Inputs, OutputFile, same_path};
 pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
 pub use generate::{Outputs, generate_outputs};
 pub use hydrostatic_body::{
     HydrostaticBody, read_hydrostatic_body, read_hydrostatic_body_at, read_hydrostatic_body_with,
 };
 pub use inspect::{inspection_json, inspection_page};
-pub use page::{hydrostatics_page, self_test_page, summary_page};
+pub use page::{TENDER, hydrostatics_page, self_test_page, summary_page};
 pub use result::{JobResult, read_result};
 pub use result_files::{ReportSettings, report_outputs};
 pub use self_test::{SelfCheck, self_test};

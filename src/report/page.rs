@@ -4,7 +4,8 @@ use super::generate::Outputs;
 use super::self_test::SelfCheck;
 use crate::hull::{NO_DRAUGHT, PrincipalParticulars};
 use crate::hydrostatics::{
-    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, Quantity, Shell,
+    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LEAST_GM, LcbReference, PrismaticSection, Quantity,
+    Shell,
 };
 
 pub(super) const WIDTH: usize = 80;
@@ -16,8 +17,11 @@ pub(super) fn value(row: &Hydrostatics, key: &str) -> String {
         .unwrap_or_default()
 }
 
-/// A number with so many decimals; what rounds to zero has no sign.
+/// A number with so many decimals; what rounds to zero has no sign, and what is no number is "-".
 pub(super) fn fixed(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return "-".to_owned();
+    }
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
         Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_owned(),
@@ -87,7 +91,11 @@ pub(super) fn conventions_line(c: &Conventions) -> String {
         None => "MTC from BML".to_owned(),
     };
     let lcb = c.lcb_reference.statement();
-    format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP; {lcb}.", c.density)
+    format!(
+        "Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP; {lcb}; {}.",
+        c.density,
+        c.sources()
+    )
 }
 
 /// The main dimensions in one line, without a draught that nobody stated.
@@ -151,18 +159,39 @@ pub(super) fn quantities(row: &Hydrostatics, conventions: &Conventions, length: 
         page.push_str(cells.join("").trim_end());
         page.push('\n');
     }
+    if conventions.centre_of_gravity_height.is_some() {
+        let cells = ["GMT", "GML"].map(|key| format!("{key:<8}{:>11} {:<7}", value(row, key), unit(key)));
+        page.push_str(cells.join("").trim_end());
+        page.push('\n');
+        page.push_str(&tender([row]));
+    }
     page
 }
+
+/// A line that marks rows with too little GM; empty where there are none.
+fn tender<'r>(rows: impl IntoIterator<Item = &'r Hydrostatics>) -> String {
+    let rows = rows.into_iter().filter(|row| row.is_tender());
+    let draughts: Vec<String> = rows.map(|row| format!("{} m", value(row, "T"))).collect();
+    if draughts.is_empty() {
+        return String::new();
+    }
+    wrapped(&format!("{TENDER} {LEAST_GM} m, the least of the IS Code, at T {}.", draughts.join(", ")), 2)
+}
+
+/// How the line begins that marks too little GM.
+pub const TENDER: &str = "GM is below";
 
 /// A hydrostatic table in blocks of 80 columns.
 #[must_use]
 pub fn hydrostatics_page(table: &CurvesOfForm, particulars: &PrincipalParticulars) -> String {
     let (conventions, length) = (&table.conventions, particulars.length_between_perpendiculars);
-    let blocks: [&[&str]; 3] = [
+    let blocks: [&[&str]; 4] = [
         &["T", "DISPVOL", "DISPM", "LCB", "KB", "AWL", "XWL", "TPC"],
         &["T", "MTC", "BMT", "BML", "KMT", "KML", "LWL", "BWL"],
         &["T", "CB", "CM", "CX", "CP", "CWP", "CVP", "S"],
+        &["T", "GMT", "GML"],
     ];
+    let blocks = &blocks[..if conventions.centre_of_gravity_height.is_some() { 4 } else { 3 }];
     let mut page = wrapped(&conventions_line(conventions), 2);
     if particulars.draught.is_none() {
         page.push_str("No design draught is stated (--draught).\n");
@@ -179,6 +208,7 @@ pub fn hydrostatics_page(table: &CurvesOfForm, particulars: &PrincipalParticular
             page.push_str(&row(&|key| if key == "LCB" { lcb(line, conventions, length) } else { value(line, key) }));
         }
     }
+    page.push_str(&tender(&table.rows));
     for line in &table.rows {
         if let Some(remark) = &line.remark {
             page.push_str(&wrapped(&format!("T {} m: {remark}", value(line, "T")), 2));
@@ -218,6 +248,7 @@ mod tests {
     #[test]
     fn what_rounds_to_zero_has_no_sign() {
         assert_eq!((fixed(-0.004, 2), fixed(-0.0, 0)), ("0.00".to_owned(), "0".to_owned()));
+        assert_eq!([f64::NAN, f64::INFINITY, -f64::INFINITY].map(|value| fixed(value, 2)), ["-", "-", "-"]);
         assert_eq!((fixed(-0.006, 2), fixed(-10.0, 1)), ("-0.01".to_owned(), "-10.0".to_owned()));
     }
 
@@ -226,7 +257,8 @@ mod tests {
         let line = conventions_line(&Conventions { centre_of_gravity_height: Some(7.5), ..Conventions::default() });
         assert_eq!(
             line,
-            "Coefficients on Lpp, CP on the largest section; 1.025 t/m3; MTC from GML with KG 7.5 m; x from AP; LCB from AP, + forward."
+            "Coefficients on Lpp, CP on the largest section; 1.025 t/m3; MTC from GML with KG 7.5 m; x from AP; LCB from AP, + forward; \
+             given: L_PP, B, T; assumed: LCB origin, density."
         );
     }
 }

@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::failure::{Failure, problem};
+use super::files::MANIFEST;
 use super::generate::manifest_entry;
 use super::source::{AGAIN, hull_faults, read_bytes, utf8};
 use crate::exchange::{
     FairingFile, HullFile, ManifestEntry, json_message, read_changes, read_fairing, read_hull, read_manifest_input,
-    read_manifest_outputs,
+    read_manifest_outputs, sha256,
 };
 use crate::fairing::outcome::Change;
 use crate::fairing::record::{Doubt, FairRecord, resolution};
@@ -176,7 +177,22 @@ fn bare(hull: Hull, conventions: Conventions, inputs: Vec<ManifestEntry>) -> Job
     }
 }
 
+/// Refuses a folder with files that are not those of its manifest: they would be of two runs, or changed since.
+fn of_one_run(folder: &Path) -> Result<(), Failure> {
+    let manifest = fs::read_to_string(folder.join(MANIFEST)).unwrap_or_default();
+    let differs =
+        |entry: &ManifestEntry| fs::read(folder.join(&entry.file)).is_ok_and(|bytes| sha256(&bytes) != entry.sha256);
+    let others = read_manifest_outputs(&manifest).into_iter().filter(differs);
+    let of = |entry: ManifestEntry| {
+        let message = format!("the file is not the one that {MANIFEST} lists: it is of another run, or was changed");
+        problem("E185", &folder.join(entry.file), message, "Run the command again with --force")
+    };
+    let messages: Vec<_> = others.map(of).collect();
+    if messages.is_empty() { Ok(()) } else { Err(Failure::Input(messages)) }
+}
+
 fn of_folder(mut reader: ResultReader) -> Result<JobResult, Failure> {
+    of_one_run(&reader.folder)?;
     let HullFile { hull, conventions } = reader.hull("hull.json", "`generate`, `fit` or `fair`")?;
     let folder = reader.folder.clone();
     let mut changes = None;

@@ -503,7 +503,7 @@ pub(super) fn report_page(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n\
          <link rel=\"icon\" href=\"data:,\"><title>{name}</title>\n<style>\n@font-face {{ font-family: \"DejaVu Sans\"; src: url(\"data:font/ttf;base64,{}\"); }}\n\
          {STYLE}</style></head><body>\n<header><h1>{name}</h1>\n\
-         <p>L<sub>PP</sub> {:.3} m{} &nbsp; B {:.3} m{} &nbsp; {} &nbsp; D {:.3} m{} &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
+         <p>L<sub>PP</sub> {:.3} m{} &nbsp; B {:.3} m{} &nbsp; {} &nbsp; D {:.3} m{} &nbsp; ρ {:.3} t/m³ ({}) &nbsp; moulded; x forward \
          from AP, z up from the base line</p>\n",
         STANDARD.encode(FONT),
         p.length_between_perpendiculars,
@@ -513,7 +513,8 @@ pub(super) fn report_page(
         p.draught.map_or("T not stated".to_owned(), |draught| format!("T {draught:.3} m")),
         p.depth,
         assumed_mark(result.conventions.assumed.depth),
-        result.conventions.density
+        result.conventions.density,
+        result.conventions.sources()
     );
     if p.draught.is_none() {
         html.push_str(&format!("<p>{NO_DESIGN_DRAUGHT}</p>\n"));

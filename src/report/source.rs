@@ -1,8 +1,9 @@
 //! What a job starts from: a design file, or a hull.
 
 use std::fs;
-use std::io::Read as _;
+use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use super::check::suspects_line;
 use super::failure::{COMMAND_LINE, Failure, problem};
@@ -10,9 +11,9 @@ use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::fairing::suspects;
 use crate::hull::{Cut, FitError, FitMethod, Hull, OffsetStation, OffsetTable, Section, StatedParticulars};
-use crate::hydrostatics::{Assumed, Conventions};
+use crate::hydrostatics::{Assumed, Conventions, Given};
 use crate::parametric::{Family, Generated};
-use crate::units::counted;
+use crate::units::{counted, name_fault};
 
 /// A hull with the conventions of its tables.
 #[derive(Debug, Clone)]
@@ -31,10 +32,63 @@ const LARGEST_INPUT: u64 = exchange::LARGEST_HULL_FILE as u64;
 /// No mesh or CAD file is longer than this \[bytes\].
 const LARGEST_BODY: u64 = 1 << 30;
 
+/// Of standard input so much is looked at to find its kind \[bytes\].
+const CONTENT: usize = 1 << 16;
+
 /// Endings of meshes and CAD files.
 const BODIES: [&str; 6] = ["stl", "obj", "step", "stp", "igs", "iges"];
 
+/// Whether a path is standard input: `-`.
+fn is_standard_input(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Standard input, which is read once.
+fn standard_input() -> Result<Vec<u8>, Failure> {
+    static READ: OnceLock<Result<Vec<u8>, ErrorKind>> = OnceLock::new();
+    let read = READ.get_or_init(|| {
+        let mut bytes = Vec::new();
+        let done = std::io::stdin().lock().take(LARGEST_BODY + 1).read_to_end(&mut bytes);
+        done.map(|_| bytes).map_err(|error| error.kind())
+    });
+    read.clone().map_err(|kind| Failure::FileSystem { act: "read", path: "standard input".into(), error: kind.into() })
+}
+
+/// The ending of the name of a file in lower case; of standard input that of a file with its content.
+pub(super) fn ending(path: &Path) -> String {
+    if !is_standard_input(path) {
+        return path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    }
+    let bytes = standard_input().unwrap_or_default();
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(CONTENT)]);
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let first = lines.next().unwrap_or("");
+    let is_key = |key: &str| !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || "._-\" ".contains(c));
+    if first.starts_with('{') {
+        "json".to_owned()
+    } else if first.starts_with('[') || first.split_once('=').is_some_and(|(key, _)| is_key(key.trim())) {
+        "toml".to_owned()
+    } else if first.split(',').any(|head| head.trim() == "HullData") {
+        "hgf".to_owned()
+    } else {
+        String::new()
+    }
+}
+
+/// Refuses a file whose name no drawing can show, before any work is done.
+fn name_of_file(path: &Path) -> Result<(), Failure> {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    match name_fault(&name) {
+        None => Ok(()),
+        Some(fault) => Err(Failure::Input(vec![problem("E132", path, fault, "Rename the file")])),
+    }
+}
+
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    if is_standard_input(path) {
+        return standard_input();
+    }
+    name_of_file(path)?;
     let failure = |error| Failure::FileSystem { act: "read", path: path.to_owned(), error };
     let body = path.extension().is_some_and(|e| BODIES.iter().any(|known| e.eq_ignore_ascii_case(known)));
     let most = if body { LARGEST_BODY } else { LARGEST_INPUT };
@@ -75,7 +129,7 @@ pub fn read_design(path: &Path) -> Result<(Design, Vec<u8>), Failure> {
     let bytes = read_bytes(path)?;
     let text = utf8(path, bytes.clone())?;
     let shown = path.display().to_string();
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let extension = ending(path);
     if matches!(extension.as_str(), "hgf" | "huf") {
         let ship = exchange::read_hgf(&text).map_err(|errors| {
             let messages = errors.iter().map(|error| {
@@ -96,15 +150,24 @@ pub fn read_design(path: &Path) -> Result<(Design, Vec<u8>), Failure> {
         let name = if ship.name.is_empty() { stem } else { ship.name };
         return Ok((Design::new(&shown, &name, Family::UclCosh(ship.parameters)), bytes));
     }
-    let design = config::read(&shown, &text).map_err(Failure::Input)?;
+    let mut design = config::read(&shown, &text).map_err(Failure::Input)?;
+    if design.name == "-" {
+        STANDARD_INPUT.clone_into(&mut design.name);
+    }
     Ok((design, bytes))
 }
+
+/// What a ship is called that comes from standard input and has no name.
+const STANDARD_INPUT: &str = "standard input";
 
 /// Names of files that say what is in them and not of which ship.
 const WORDS: [&str; 3] = ["offsets", "sections", "table"];
 
 /// What a ship is called whose table has no name: the file, or its folder where the file is just `offsets`.
 pub(super) fn ship_name(path: &Path) -> String {
+    if is_standard_input(path) {
+        return STANDARD_INPUT.to_owned();
+    }
     let text = |name: Option<&std::ffi::OsStr>| name.map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let stem = text(path.file_stem());
     let folder = text(path.parent().and_then(Path::file_name));
@@ -147,7 +210,7 @@ pub fn read_source(path: &Path) -> Result<Source, Failure> {
 /// Those of [`read_source`]; [`Failure::Usage`] when conventions are given for a file that has its own.
 pub fn read_source_with(path: &Path, overrides: &Overrides) -> Result<Source, Failure> {
     let file: PathBuf = if path.is_dir() { path.join("hull.json") } else { path.to_owned() };
-    let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let extension = ending(&file);
     if matches!(extension.as_str(), "toml" | "hgf" | "huf") {
         overrides.refuse(&file)?;
         let (design, _) = read_design(&file)?;
@@ -159,7 +222,7 @@ pub fn read_source_with(path: &Path, overrides: &Overrides) -> Result<Source, Fa
 
 /// The hull of a file, not a design, with these contents.
 pub(super) fn source_of(file: &Path, bytes: Vec<u8>, overrides: &Overrides) -> Result<Source, Failure> {
-    let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let extension = ending(file);
     let first = bytes.iter().find(|b| !b.is_ascii_whitespace());
     if extension != "json" && first.is_some_and(|&b| b != b'{') {
         return fitted(file, &bytes, overrides);
@@ -316,7 +379,7 @@ fn table_of(path: &Path, bytes: &[u8], overrides: &Overrides) -> Result<(OffsetT
 
 /// Whether a file is a job, a method or a design by its name.
 pub(super) fn is_toml(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+    ending(path) == "toml"
 }
 
 /// A problem of a table among the messages about files.
@@ -332,6 +395,7 @@ fn of_table(problem: TableProblem) -> Diagnostic {
         column: None,
         key: String::new(),
         message: format!("{quoted}{}", problem.message),
+        found: problem.found,
         help: problem.remedy,
     }
 }
@@ -346,7 +410,8 @@ fn fitted(path: &Path, bytes: &[u8], overrides: &Overrides) -> Result<Source, Fa
     // What was detected, as units and orders, decides the hull as much as what was assumed.
     let notes = notes.iter().map(ToString::to_string);
     let notes = notes.chain(suspects_line(&table, &suspects(&table))).chain(fitted.notes).collect();
-    let conventions = Conventions { assumed: Assumed::of(&table.stated), ..Conventions::default() };
+    let given = Given::of_table(fitted.hull.particulars().draught.map(|_| overrides.states_draught()));
+    let conventions = Conventions { assumed: Assumed::of(&table.stated), given, ..Conventions::default() };
     Ok(Source { hull: fitted.hull, conventions, notes })
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::super::diagnostic::{Diagnostic, Severity, position};
+use super::super::diagnostic::{Diagnostic, Severity};
 use super::super::document::Document;
 
 /// A key of a job file with line and column, or an option of the command.
@@ -16,7 +16,7 @@ pub struct Location {
 impl Location {
     /// A byte of the document, which belongs to the key.
     pub(super) fn new(document: &Document<'_>, key: &str, byte: usize) -> Self {
-        let at = Some(position(document.text, byte));
+        let at = Some(document.position(byte));
         Self { file: document.file.to_owned(), key: key.to_owned(), at }
     }
 
@@ -42,6 +42,7 @@ impl Location {
             column: self.at.map(|at| at.1),
             key: self.key.clone(),
             message: format!("{}: {text}", self.key),
+            found: String::new(),
             help: help.into(),
         }
     }

@@ -74,7 +74,7 @@ use self::grid::Grid;
 use self::problem::{Field, FilePosition, Problems};
 use self::settings::Settings;
 use crate::hull::{OffsetTable, Order, Rows, TableForm, TableLayout};
-use crate::units::{CellRules, CellWriting, Notation, counted, parse_cell};
+use crate::units::{CellRules, CellWriting, NAME_REMEDY, Notation, counted, name_fault, parse_cell, unguarded};
 
 /// A table with what should be known about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -104,6 +104,26 @@ pub fn read_table_with<'a>(
     sidecar: impl IntoIterator<Item = (&'a str, &'a str)>,
 ) -> Result<ReadTable, Vec<TableProblem>> {
     let sidecar: Vec<(&str, &str)> = sidecar.into_iter().collect();
+    let read = read_any(name, bytes, sidecar)?;
+    let faults = name_faults(name, &read.table);
+    if faults.is_empty() { Ok(read) } else { Err(faults) }
+}
+
+/// Names of the ship, of stations and of lines that no drawing can show.
+fn name_faults(file: &str, table: &OffsetTable) -> Vec<TableProblem> {
+    let mut problems = Problems::new(file);
+    let stations = table.stations.iter().map(|station| ("station", station.station.name.as_str()));
+    let lines = table.lines.iter().map(|line| ("line", line.name.as_str()));
+    for (of, name) in [("table", table.name.as_str())].into_iter().chain(stations).chain(lines) {
+        if let Some(fault) = name_fault(name) {
+            problems.error("E316", (FilePosition::FILE, name), format!("{of}: {fault}"), NAME_REMEDY);
+        }
+    }
+    problems.finish().err().unwrap_or_default()
+}
+
+/// The same without a look at the names.
+fn read_any(name: &str, bytes: &[u8], sidecar: Vec<(&str, &str)>) -> Result<ReadTable, Vec<TableProblem>> {
     if let Some(body) = read_body(name, bytes, sidecar.iter().copied()) {
         return body.and_then(ReadBody::table);
     }
@@ -184,6 +204,9 @@ fn of_grid(
             "Give the table as CSV, TSV or XLSX",
         );
         return None;
+    }
+    for field in grid.rows.iter_mut().flatten().filter(|field| field.text.starts_with('\'')) {
+        field.text = unguarded(&field.text).to_owned();
     }
     triples::settle(&mut grid.rows, problems);
     let layout = settings.layout.unwrap_or_else(|| {

@@ -10,7 +10,7 @@ use super::problem::{Field, Problems};
 use super::ratio::slot;
 use super::settings::{KEYS, Settings, Value, length, nearest};
 use crate::hull::{FeatureLine, LineKind, StatedParticulars, TransomPlane};
-use crate::units::counted;
+use crate::units::{LineStarts, counted};
 
 /// Longer files are no conventions \[bytes\].
 const LARGEST: usize = 1 << 20;
@@ -24,13 +24,14 @@ const PARTICULARS: [&str; 3] = ["table", "particulars", "dimensions"];
 struct Sidecar<'a> {
     file: &'a str,
     text: &'a str,
+    lines: LineStarts,
     problems: &'a mut Problems,
 }
 
 /// Reads the conventions of the file `name` with the contents `text`. A file that has none of our tables, or beside
 /// `[dimensions]` others, as a design or a job of the same name, is left alone with a note.
 pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &mut Problems) {
-    let mut sidecar = Sidecar { file: name, text, problems };
+    let mut sidecar = Sidecar { file: name, text, lines: LineStarts::new(text), problems };
     let Some(document) = sidecar.document() else { return };
     let names: Vec<&str> = document.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
     let is_job = |value: &DeValue<'_>| matches!(value, DeValue::Table(table) if table.contains_key("file"));
@@ -105,7 +106,7 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
 /// A text that is no TOML, and values that are no lengths, each with its place (E311).
 pub fn read_particulars(name: &str, text: &str) -> Result<StatedParticulars, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
-    let mut sidecar = Sidecar { file: name, text, problems: &mut problems };
+    let mut sidecar = Sidecar { file: name, text, lines: LineStarts::new(text), problems: &mut problems };
     let mut stated = StatedParticulars::default();
     if let Some(document) = sidecar.document() {
         sidecar.dimensions(document.get_ref(), &mut stated);
@@ -165,13 +166,8 @@ impl<'a> Sidecar<'a> {
     }
 
     fn problem(&mut self, found: &str, span: &Range<usize>, message: String, remedy: &str) {
-        let before = self.text.get(..span.start).unwrap_or("");
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        let field = Field {
-            text: found.to_owned(),
-            row: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-        };
+        let (row, column) = self.lines.position(self.text, span.start);
+        let field = Field { text: found.to_owned(), row, column };
         self.problems.error_in(self.file, &field, message, remedy);
     }
 

@@ -11,7 +11,7 @@ use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Rows, SideKind, SideLine, StationDatum, StationOffsets, TableForm,
     TableLayout, Written,
 };
-use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
+use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, guarded, parse_cell};
 use std::borrow::Cow;
 
 /// In which notation and layout a table is to be written; its own by default.
@@ -469,7 +469,7 @@ impl Writer {
         let separator = self.form.separator;
         let mut text = String::new();
         for line in &self.form.preamble {
-            text.push_str(line);
+            text.push_str(&guarded(line));
             text.push_str(end);
         }
         for record in records {
@@ -477,6 +477,7 @@ impl Writer {
                 if index > 0 {
                     text.push(separator);
                 }
+                let field = guarded(field);
                 let quoted = field.contains([separator, '\n', '\r'])
                     || field.starts_with('"')
                     || index == 0 && field.starts_with('#');
@@ -485,7 +486,7 @@ impl Writer {
                     text.push_str(&field.replace('"', "\"\""));
                     text.push('"');
                 } else {
-                    text.push_str(field);
+                    text.push_str(&field);
                 }
             }
             if self.form.trailing_separator && !record.is_empty() {

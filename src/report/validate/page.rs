@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::super::page::{fixed, signed};
 use super::{Case, Comparison, Tolerance, Verdict};
 use crate::hull::Chart;
+use crate::units::guarded;
 
 /// Difference of the volume that tables of offsets are expected to keep, in %.
 const GOAL: f64 = 0.3;
@@ -143,7 +144,7 @@ pub fn validation_csv(cases: &[Case]) -> String {
     let mut text = String::from(
         "case,source,table,quantity,measured,basis,T,unit,theirs,ours,difference,difference_percent,left_out,tolerance,verdict\n",
     );
-    let quoted = |field: &str| format!("\"{}\"", field.replace('"', "\"\""));
+    let quoted = |field: &str| format!("\"{}\"", guarded(field).replace('"', "\"\""));
     let number = |value: Option<f64>| value.map(|value| format!("{}", value + 0.0)).unwrap_or_default();
     for case in cases {
         for c in &case.comparisons {

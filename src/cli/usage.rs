@@ -1,0 +1,65 @@
+//! What is wrong with a command line, with a code.
+//!
+//! | code | about |
+//! |---|---|
+//! | E701 | an option, an argument or a command that is not known |
+//! | E702 | an option, an argument or a value that is missing |
+//! | E703 | a value that an option does not take |
+//! | E704 | options that exclude each other, or that are given twice |
+
+use std::ffi::OsString;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+
+use crate::config::{Diagnostic, Severity};
+use crate::report::{COMMAND_LINE, Failure};
+
+/// Whether a command line asks for JSON, also one that cannot be understood.
+pub(super) fn wants_json(arguments: &[OsString]) -> bool {
+    arguments.iter().take_while(|word| *word != "--").any(|word| word == "--json" || word == "--jsonl")
+}
+
+fn code(kind: ErrorKind) -> &'static str {
+    match kind {
+        ErrorKind::UnknownArgument | ErrorKind::InvalidSubcommand => "E701",
+        ErrorKind::MissingRequiredArgument
+        | ErrorKind::MissingSubcommand
+        | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+        | ErrorKind::TooFewValues => "E702",
+        ErrorKind::ArgumentConflict | ErrorKind::TooManyValues => "E704",
+        _ => "E703",
+    }
+}
+
+/// The words of a context.
+fn words(value: Option<&ContextValue>) -> String {
+    match value {
+        Some(ContextValue::String(text)) => text.clone(),
+        Some(ContextValue::Strings(list)) => list.join(", "),
+        _ => String::new(),
+    }
+}
+
+/// The failure of a command line. Its message is what the parser says of it, without its heading.
+pub(super) fn failure(error: &clap::Error) -> Failure {
+    let text = error.render().to_string();
+    let text = text.trim_end().trim_start_matches("error: ");
+    let (message, help) = text.split_once("\n\n").unwrap_or((text, ""));
+    let message: Vec<&str> = message.lines().map(str::trim).collect();
+    let message = message.join(" ");
+    let invalid = [ContextKind::InvalidArg, ContextKind::InvalidSubcommand];
+    let found = words(error.get(ContextKind::InvalidValue));
+    let valid = words(error.get(ContextKind::ValidValue));
+    let expected = if valid.is_empty() { String::new() } else { format!("; expected {valid}") };
+    Failure::Options(vec![Diagnostic {
+        severity: Severity::Error,
+        code: code(error.kind()),
+        file: COMMAND_LINE.to_owned(),
+        line: None,
+        column: None,
+        key: words(invalid.into_iter().find_map(|kind| error.get(kind))),
+        message: format!("{message}{expected}"),
+        found,
+        help: help.trim().to_owned(),
+    }])
+}
