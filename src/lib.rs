@@ -89,5 +89,6 @@ pub mod parametric;
 pub mod plot;
 pub mod qp;
 pub mod report;
+pub mod resistance;
 pub mod spline;
 pub mod units;

@@ -3,7 +3,7 @@
 use crate::support::{carried, read_text, sources};
 
 /// Every module with its floor.
-const FLOORS: [(&str, usize); 14] = [
+const FLOORS: [(&str, usize); 15] = [
     ("numeric", 0),
     ("units", 0),
     ("spline", 1),
@@ -11,6 +11,7 @@ const FLOORS: [(&str, usize); 14] = [
     ("hull", 2),
     ("hydrostatics", 3),
     ("parametric", 4),
+    ("resistance", 4),
     ("fairing", 4),
     ("config", 5),
     ("exchange", 5),
