@@ -65,11 +65,8 @@ impl Holtrop {
             ratio if ratio <= 0.25 => ratio,
             _ => 0.5 - 0.0625 * l / b,
         };
-        let c16 = if cp < 0.80 {
-            8.07981 * cp - 13.8673 * cp.powi(2) + 6.984388 * cp.powi(3)
-        } else {
-            1.73014 - 0.7067 * cp
-        };
+        let c16 =
+            if cp < 0.80 { 8.07981 * cp - 13.8673 * cp.powi(2) + 6.984388 * cp.powi(3) } else { 1.73014 - 0.7067 * cp };
         let slenderness = l.powi(3) / volume;
         let c15 = match slenderness {
             ratio if ratio < 512.0 => -1.69385,
@@ -83,10 +80,7 @@ impl Holtrop {
                 Edition::Of1984 => form_factor_1984(ship),
             },
             allowance: correlation_allowance(ship, c2),
-            c1: 2_223_105.0
-                * c7.powf(3.78613)
-                * (t / b).powf(1.07961)
-                * (90.0 - ship.half_angle).powf(-1.37565),
+            c1: 2_223_105.0 * c7.powf(3.78613) * (t / b).powf(1.07961) * (90.0 - ship.half_angle).powf(-1.37565),
             c2,
             c5: (1.0 - 0.8 * ship.transom_area / (b * t * cm)).max(0.0),
             c15,
@@ -171,7 +165,10 @@ impl Holtrop {
         let emergence = 0.56 * ship.bulb_area.sqrt() / (ship.draught_fore - 1.5 * ship.bulb_height);
         let depth = ship.draught_fore - ship.bulb_height - 0.25 * ship.bulb_area.sqrt();
         let froude = speed / (water.gravity * depth + 0.15 * speed * speed).max(f64::MIN_POSITIVE).sqrt();
-        0.11 * (-3.0 * emergence.powi(-2)).exp() * froude.powi(3) * ship.bulb_area.powf(1.5) * water.density
+        0.11 * (-3.0 * emergence.powi(-2)).exp()
+            * froude.powi(3)
+            * ship.bulb_area.powf(1.5)
+            * water.density
             * water.gravity
             / (1.0 + froude * froude)
     }

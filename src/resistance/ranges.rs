@@ -20,11 +20,12 @@ pub struct Range {
 impl std::fmt::Display for Range {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let [low, high] = self.limits;
-        if low > 0.0 {
-            write!(f, "{} {:.3}, data {low} to {high}", self.symbol, self.value)
-        } else {
-            write!(f, "{} {:.3}, data to {high}", self.symbol, self.value)
-        }
+        let data = match (low > 0.0, high.is_finite()) {
+            (true, true) => format!("{low} to {high}"),
+            (true, false) => format!("{low} or more"),
+            _ => format!("to {high}"),
+        };
+        write!(f, "{} {:.3}, data {data}", self.symbol, self.value)
     }
 }
 
@@ -32,12 +33,7 @@ impl std::fmt::Display for Range {
 #[must_use]
 pub fn outside(method: Method, froude: f64, [lb, bt, cp, cb]: [f64; 4]) -> Vec<Range> {
     let holtrop = |most: f64| {
-        vec![
-            ("Fn", froude, [0.0, most]),
-            ("C_P", cp, [0.55, 0.85]),
-            ("L/B", lb, [3.9, 14.9]),
-            ("B/T", bt, [2.1, 4.0]),
-        ]
+        vec![("Fn", froude, [0.0, most]), ("C_P", cp, [0.55, 0.85]), ("L/B", lb, [3.9, 14.9]), ("B/T", bt, [2.1, 4.0])]
     };
     let ranges = match method {
         Method::Holtrop1982 => holtrop(0.45),

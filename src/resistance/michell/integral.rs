@@ -1,8 +1,9 @@
 //! The integral over the directions of the waves, I = int_1^inf |F|^2 l^2 / sqrt(l^2 - 1) dl.
 //!
 //! With l = 1 + w^2 the integrand is smooth. Gauss rules of 16 nodes take three waves of the interference of bow and
-//! stern each (relative error 1e-12). Octaves of l are added until what is left settles: |F|^2 falls like a power of l,
-//! so that the octaves are a geometric series in the end, and its sum is that of the rest.
+//! stern each (relative error 1e-12). Octaves of l are added, the last one under a smooth window, so that no wave ends at
+//! its edge. |F|^2 falls like a power of l, so that the sums are a geometric series in the end: its limit is taken, and the
+//! limits of successive octaves are extrapolated once more (Aitken 1926).
 
 use std::f64::consts::TAU;
 
@@ -12,61 +13,90 @@ use crate::numeric::gauss_legendre;
 const NODES: usize = 16;
 /// Waves of e^{i nu L l} that a rule takes.
 const WAVES: f64 = 3.0;
-/// Octaves at least and at most.
-const OCTAVES: [usize; 2] = [3, 10];
-/// The ratio of octaves at most: slower series are not summed.
-const SLOWEST: f64 = 0.5;
+/// Octaves at most.
+const OCTAVES: usize = 10;
+/// The ratio of successive differences at most: slower series are not summed.
+const SLOWEST: f64 = 0.7;
+/// The ratio of differences of limits up to which they are extrapolated.
+const SETTLING: f64 = 0.3;
 
-/// The value of the integral, the factor of the last octave that stands for the rest, and what the rest may be wrong by.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct DirectionIntegral {
-    /// I.
-    pub(super) value: f64,
-    /// Estimate of its error.
-    pub(super) error: f64,
+/// What one octave adds: in full, and under the window that ends the integral.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct OctaveWeights {
+    /// Weight of the rule.
+    pub(super) full: f64,
+    /// The same under the window.
+    pub(super) windowed: f64,
 }
 
-/// Evaluations of one octave: `square` gets l and the weight, and returns |F|^2.
-fn octave(phase: f64, index: usize, square: &mut impl FnMut(f64, f64) -> f64) -> f64 {
+/// What follows an octave: it is the last, and the factor of the last difference of windowed sums that stands for the
+/// rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct OctaveEnd {
+    /// Whether the integral ends here.
+    pub(super) last: bool,
+    /// r / (1 - r) of the ratio r of successive differences.
+    pub(super) rest: f64,
+}
+
+/// 1 at the lower end of an octave, 0 at the upper, with all derivatives 0 to the fifth at both; `part` from 0 to 1 along
+/// log2 l.
+fn window(part: f64) -> f64 {
+    let x = 1.0 - part;
+    x.powi(6) * (462.0 + x * (-1980.0 + x * (3465.0 + x * (-3080.0 + x * (1386.0 - 252.0 * x)))))
+}
+
+/// Full and windowed integral over one octave; `square` gets l and the weights, and returns |F|^2.
+fn octave(phase: f64, index: usize, square: &mut impl FnMut(f64, OctaveWeights) -> f64) -> OctaveWeights {
     let low = 2f64.powi(index as i32);
     let count = (phase * low / (TAU * WAVES)).ceil().max(2.0) as usize;
     let root = |part: f64| (low * (1.0 + part) - 1.0).max(0.0).sqrt();
-    let mut sum = 0.0;
+    let mut sums = OctaveWeights::default();
     for n in 0..count {
         let [from, to] = [n, n + 1].map(|n| root(n as f64 / count as f64));
-        for (w, weight) in gauss_legendre(NODES).on(from, to) {
+        // From l = 1 on the waves become shorter along w: the first panel is two.
+        let middle = if index + n == 0 { 0.5 * to } else { to };
+        let [first, second] = [(from, middle), (middle, to)].map(|(a, b)| gauss_legendre(NODES).on(a, b));
+        for (w, weight) in first.chain(second.filter(|_| middle < to)) {
             let l = 1.0 + w * w;
-            let weight = weight * 2.0 * l * l / (w * w + 2.0).sqrt();
-            sum += weight * square(l, weight);
+            let full = weight * 2.0 * l * l / (w * w + 2.0).sqrt();
+            let weights = OctaveWeights { full, windowed: full * window((l / low).log2()) };
+            let value = square(l, weights);
+            sums.full += weights.full * value;
+            sums.windowed += weights.windowed * value;
         }
     }
-    sum
+    sums
 }
 
-/// Sums octaves until what is left is known to `tolerance`; `phase` is nu L. After each octave `ended` gets the factor by
-/// which that octave counts if it is the last.
+/// The integral, until the limits of two octaves agree to `tolerance`; `phase` is nu L. The result differs from the last
+/// limit by less than they do. `ended` is called after each octave.
 pub(super) fn integral(
     phase: f64,
     tolerance: f64,
-    mut square: impl FnMut(f64, f64) -> f64,
-    mut ended: impl FnMut(bool, f64),
-) -> DirectionIntegral {
-    let (mut sum, mut before, mut estimate) = (0.0, 0.0, f64::INFINITY);
-    let mut error = f64::INFINITY;
-    for index in 0..OCTAVES[1] {
+    mut square: impl FnMut(f64, OctaveWeights) -> f64,
+    mut ended: impl FnMut(OctaveEnd),
+) -> f64 {
+    let (mut full, mut sum, mut difference) = (0.0, 0.0, 0.0);
+    let mut limits = [0.0; 3];
+    for index in 0..OCTAVES {
         let part = octave(phase, index, &mut square);
-        let ratio: f64 = if before > 0.0 { part / before } else { 0.0 };
-        let factor = 1.0 / (1.0 - ratio.min(SLOWEST));
-        let value = sum + factor * part;
-        error = (value - estimate).abs();
-        let last = index + 1 >= OCTAVES[0] && error <= tolerance * value || index + 1 == OCTAVES[1];
-        ended(last, factor);
-        (sum, before, estimate) = (sum + part, part, value);
+        let next = full + part.windowed;
+        let step: f64 = next - sum;
+        let ratio = if index > 1 && difference > 0.0 { (step / difference).clamp(0.0, SLOWEST) } else { 0.0 };
+        let rest = ratio / (1.0 - ratio);
+        (full, sum, difference) = (full + part.full, next, step);
+        limits = [limits[1], limits[2], sum + rest * step];
+        let settled = index > 2 && (limits[2] - limits[1]).abs() <= tolerance * limits[2];
+        let last = settled || index + 1 == OCTAVES;
+        ended(OctaveEnd { last, rest });
         if last {
             break;
         }
     }
-    DirectionIntegral { value: estimate, error }
+    let [before, between] = [limits[1] - limits[0], limits[2] - limits[1]];
+    let ratio = between / before;
+    if ratio.abs() < SETTLING { limits[2] + between * ratio / (1.0 - ratio) } else { limits[2] }
 }
 
 #[cfg(test)]
@@ -74,12 +104,17 @@ mod tests {
     use super::*;
     use std::f64::consts::FRAC_PI_4;
 
-    /// int l^-4 / sqrt(l^2 - 1) dl over l^2 |F|^2 = l^-2 is int cos^2: pi/4; with l^-6 it is 5 pi/32... of cos^n.
+    /// int l^-2 / sqrt(l^2 - 1) dl is 1, of l^-3 pi/4, of l^-5 3 pi/16.
     #[test]
     fn powers_are_exact() {
-        let found = integral(5.0, 1e-10, |l, _| l.powi(-4), |_, _| {});
-        assert!((found.value - FRAC_PI_4).abs() < 1e-9, "{found:?}");
-        let found = integral(200.0, 1e-10, |l, _| l.powi(-6), |_, _| {});
-        assert!((found.value - 0.75 * FRAC_PI_4).abs() < 1e-10, "{found:?}");
+        for (phase, power, exact) in [(5.0, -4, 1.0), (0.5, -5, FRAC_PI_4), (300.0, -7, 0.75 * FRAC_PI_4)] {
+            let found = integral(phase, 1e-8, |l, _| l.powi(power), |_| {});
+            assert!((found - exact).abs() < 3e-9, "{power}: {found} {exact}");
+        }
+    }
+
+    #[test]
+    fn the_window_falls_from_1_to_0() {
+        assert!((window(0.0) - 1.0).abs() < 1e-13 && window(1.0) == 0.0 && (window(0.5) - 0.5).abs() < 1e-13);
     }
 }

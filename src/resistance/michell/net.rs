@@ -162,8 +162,7 @@ impl NetKochin {
             let of_decay = moments.of_decay(q, panel.half);
             let targets = values.heights[*first..*first + self.up.functions].iter_mut();
             for (height, series) in targets.zip(&panel.series) {
-                *height +=
-                    factor * series.iter().zip(of_decay).take(panel.count).map(|(c, i)| c * i).sum::<f64>();
+                *height += factor * series.iter().zip(of_decay).take(panel.count).map(|(c, i)| c * i).sum::<f64>();
             }
         }
     }
