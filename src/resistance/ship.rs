@@ -220,7 +220,7 @@ impl ShipParameters {
             ("S", self.wetted_surface, self.wetted_surface > 0.0, "more than 0"),
             ("C_M", self.midship_coefficient, (0.0..=1.0).contains(&self.midship_coefficient), "0 to 1"),
             ("C_WP", self.waterplane_coefficient, (0.0..=1.0).contains(&self.waterplane_coefficient), "0 to 1"),
-            ("C_P", cp, cp > 0.25 && cp < 1.0, "0.25 to 1"),
+            ("C_P", cp, cp > 0.26 && cp < 0.99, "0.26 to 0.99"),
             ("L_R", self.run_length(), self.run_length() > 0.0, "a run of positive length"),
             ("1 - C_P + 0.0225 lcb", 1.0 - cp + 0.0225 * self.lcb, 1.0 - cp + 0.0225 * self.lcb > 0.0, "more than 0"),
             ("1 - C_P - 0.0225 lcb", 1.0 - cp - 0.0225 * self.lcb, 1.0 - cp - 0.0225 * self.lcb > 0.0, "more than 0"),
