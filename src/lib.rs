@@ -112,5 +112,6 @@ pub mod plot;
 pub mod prelude;
 pub mod qp;
 pub mod report;
+pub mod resistance;
 pub mod spline;
 pub mod units;

@@ -11,6 +11,7 @@ const FLOORS: [(&str, usize); 15] = [
     ("hull", 2),
     ("hydrostatics", 3),
     ("parametric", 4),
+    ("resistance", 4),
     ("fairing", 4),
     ("config", 5),
     ("exchange", 5),

@@ -48,6 +48,7 @@ mod random;
 mod report;
 mod report_browser;
 mod report_figures;
+mod resistance;
 mod sections;
 mod support;
 mod suspects;

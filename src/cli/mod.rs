@@ -15,6 +15,7 @@ mod inspect;
 mod new;
 mod offsets;
 mod report;
+mod resistance;
 mod run_files;
 mod schema;
 mod section;
@@ -73,6 +74,8 @@ enum Command {
     Schema(schema::Arguments),
     /// Hydrostatic table of a hull at any draughts
     Hydro(hydro::Arguments),
+    /// Calm-water resistance and effective power of a hull: Holtrop and Mennen, Michell, ITTC-57
+    Resistance(Box<resistance::Arguments>),
     /// Table of offsets of a hull at any stations and waterlines
     Offsets(offsets::Arguments),
     /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB, panels as GDF, NEMOH, PNL, sections
@@ -178,6 +181,7 @@ fn command(arguments: &[OsString]) -> Result<(), Failure> {
         Command::Report(arguments) => report::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
         Command::Hydro(arguments) => hydro::run(arguments),
+        Command::Resistance(arguments) => resistance::run(arguments),
         Command::Offsets(arguments) => offsets::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),

@@ -1,11 +1,4 @@
 //! What is wrong with a command line, with a code.
-//!
-//! | code | about |
-//! |---|---|
-//! | E701 | an option, an argument or a command that is not known |
-//! | E702 | an option, an argument or a value that is missing |
-//! | E703 | a value that an option does not take |
-//! | E704 | options that exclude each other, or that are given twice |
 
 use std::ffi::OsString;
 

@@ -18,6 +18,7 @@ mod number;
 mod offsets;
 mod report_tables;
 mod residuals;
+mod resistance;
 mod scene;
 mod section;
 mod subdivision;
@@ -42,6 +43,7 @@ pub use mesh::{write_gdf, write_glb, write_nemoh, write_obj, write_pnl, write_st
 pub use offsets::{heights_csv, offsets_csv};
 pub use report_tables::{diagonals_csv, micrometres, section_areas_csv};
 pub use residuals::residuals_csv;
+pub use resistance::{ResistanceFile, resistance_csv, resistance_json};
 pub use scene::scene_json;
 pub use section::{section_csv, section_json};
 pub use subdivision::{SubdivisionProject, read_subdivision, write_ftm};

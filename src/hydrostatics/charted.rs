@@ -372,6 +372,7 @@ impl Plane {
         let x = |u: f64| hull.surface().eval(u, immersion.end(u))[0];
         let breadth = self.widest.map_or(0.0, |(known, piece)| largest_on(hull, immersion, &piece, known));
         Waterplane {
+            aft: x(aft.from),
             length: x(fore.to) - x(aft.from),
             breadth: 2.0 * breadth,
             entrance: half_angle(hull, immersion, fore.to, fore.from),

@@ -66,6 +66,8 @@ pub struct Hydrostatics {
     pub wetted_surface_coefficient: Option<f64>,
     /// Wetted surface, transom and flat of bottom included [m^2].
     pub wetted_surface: f64,
+    /// Aft end of the waterline, forward of AP \[m\].
+    pub waterline_aft: Option<f64>,
     /// Length on the waterline \[m\].
     pub waterline_length: f64,
     /// Breadth on the waterline \[m\].

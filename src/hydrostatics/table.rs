@@ -215,6 +215,7 @@ pub(super) fn row(
         vertical_prismatic_coefficient: afloat(over(volume, plane.area * draught)),
         wetted_surface_coefficient: afloat(over(surface, (volume * length).sqrt())),
         wetted_surface: surface,
+        waterline_aft: (plane.length > 0.0).then_some(plane.aft),
         waterline_length: plane.length,
         waterline_breadth: plane.breadth,
         midship_section_area: section.midship,

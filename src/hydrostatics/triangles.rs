@@ -455,6 +455,7 @@ impl WaterlineSums {
             second: self.second,
             // About the waterplane's own axis: a body may lie beside the centreplane.
             transverse: self.transverse - self.across * self.across / self.area,
+            aft: self.least[0],
             length: self.greatest[0] - self.least[0],
             breadth: self.greatest[1] - self.least[1],
             entrance: None,

@@ -66,6 +66,8 @@ pub(super) struct Waterplane {
     pub(super) second: f64,
     /// Transverse second moment [m^4].
     pub(super) transverse: f64,
+    /// x of its aft end \[m\].
+    pub(super) aft: f64,
     /// Length \[m\].
     pub(super) length: f64,
     /// Breadth \[m\].
@@ -150,6 +152,7 @@ pub(super) fn waterplane(hull: &Hull, immersion: &Immersion, rule: &Rule) -> Wat
         moment: 2.0 * sums[1],
         second: 2.0 * sums[2],
         transverse: 2.0 / 3.0 * sums[3],
+        aft: line.eval(aft.1)[0],
         length: line.eval(fore.1)[0] - line.eval(aft.1)[0],
         breadth,
         entrance: half_angle(&line, fore),

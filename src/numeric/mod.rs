@@ -1,5 +1,5 @@
-//! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems, least squares, the median, two
-//! threads.
+//! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems, least squares, the median,
+//! spherical Bessel functions, two threads.
 
 mod banded;
 mod cholesky;
@@ -8,6 +8,7 @@ mod least_squares;
 mod median;
 mod quadrature;
 mod root;
+mod spherical;
 mod threads;
 
 pub use banded::{BandedLu, SingularMatrix};
@@ -16,4 +17,5 @@ pub use least_squares::BandedLeastSquares;
 pub use median::median;
 pub use quadrature::{GaussRule, gauss_legendre};
 pub use root::{RootError, bracketed_root};
+pub use spherical::{scaled_spherical_i, spherical_j};
 pub use threads::join;

@@ -50,6 +50,7 @@ mod png;
 mod profile;
 #[cfg(test)]
 mod report_tests;
+mod resistance;
 mod scale;
 mod sectional_area;
 mod sections;
@@ -88,6 +89,7 @@ pub const FONT: &[u8] = font::DEJAVU_SANS;
 pub use pages::{Heading, Page};
 pub use pareto::pareto_figure;
 pub use pdf::write_pdf;
+pub use resistance::{ResistanceSheet, resistance_figure};
 pub use scale::{DRAWING_SCALES, sheet_scale};
 pub use sheet::Sheet;
 pub use smoothing::smoothing_figure;

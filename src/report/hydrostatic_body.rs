@@ -60,6 +60,14 @@ impl HydrostaticBody {
         }
     }
 
+    /// Height of its lowest point \[m\].
+    pub(super) fn lowest(&self) -> f64 {
+        match (&self.body, self.heights()) {
+            (BodyShape::Hull(hull), _) => hull.bottom(),
+            (_, heights) => heights.map_or(0.0, |[low, _]| low),
+        }
+    }
+
     /// Why a body of triangles does not float at its design draught; none where it does, or none is stated.
     fn draught_fault(&self) -> Option<String> {
         let (draught, [bottom, top]) = (self.particulars.draught?, self.heights()?);

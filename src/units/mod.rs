@@ -10,7 +10,7 @@ mod text;
 pub use cell::{CellEntry, CellError, CellReading, CellRules, CellWriting, LONGEST_CELL, parse_cell};
 pub use list::{ListError, MAX_ITEMS, decimal, parse_list};
 pub use notation::{Notation, feet_inches_eighths};
-pub use quantity::{Dimension, Measure, UnitError, parse, parse_length};
+pub use quantity::{Dimension, KNOT, Measure, UnitError, parse, parse_length};
 pub use text::{LONGEST_NAME, LineStarts, NAME_REMEDY, guarded, name_fault, unguarded};
 
 /// A number and its noun, which takes an `s` where the number is not one: `1 station`, `3 stations`.

@@ -8,6 +8,9 @@
 
 use std::borrow::Cow;
 
+/// A knot [m/s].
+pub const KNOT: f64 = 1852.0 / 3600.0;
+
 /// What a number measures; plain numbers have none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
@@ -178,7 +181,7 @@ fn unit(word: &str) -> Option<(f64, Dimension)> {
         "ft3" | "ft^3" | "ft\u{b3}" => (0.3048 * 0.3048 * 0.3048, Volume),
         "t/m3" | "t/m^3" | "t/m\u{b3}" => (1.0, Density),
         "kg/m3" | "kg/m^3" | "kg/m\u{b3}" => (0.001, Density),
-        "kn" | "kt" | "kts" | "knots" => (1852.0 / 3600.0, Speed),
+        "kn" | "kt" | "kts" | "knots" => (KNOT, Speed),
         "m/s" => (1.0, Speed),
         "km/h" => (1.0 / 3.6, Speed),
         "%" => (0.01, Percent),

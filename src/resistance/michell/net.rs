@@ -1,0 +1,169 @@
+//! The Kochin function of a net of half-breadths over fixed x and z.
+//!
+//! Where stations are lines u = constant and waterlines lines v = constant, F = sum of c_ij G_i(k) H_j(q) with k = nu
+//! lambda and q = nu lambda^2,
+//!
+//! G_i(k) = int B_i'(x) e^{ikx} dx, H_j(q) = int B_j(z) e^{-q (T - z)} dz,
+//!
+//! so that the wave resistance is a quadratic form c'Gc in the control values c. Both integrals are closed where x and z
+//! are linear in the parameter of a span; elsewhere the span is halved until a Legendre series follows to 1e-12.
+
+use super::panel::{Moments, Panel, oscillation, panels};
+use crate::hull::Hull;
+use crate::spline::{BsplineCurve, KnotVector, MAX_DEGREE};
+
+/// Basis functions of a span.
+const FUNCTIONS: usize = MAX_DEGREE + 1;
+/// Terms of series that are dropped, beside values of 1.
+const TOLERANCE: f64 = 1e-12;
+
+/// The panels of one axis; with each the index of the first basis function.
+#[derive(Debug, Clone)]
+struct Axis {
+    panels: Vec<(usize, Panel<FUNCTIONS>)>,
+    functions: usize,
+    count: usize,
+}
+
+impl Axis {
+    fn new(coordinate: &BsplineCurve<1>, slopes: bool, end: f64) -> Self {
+        let knots: &KnotVector = coordinate.knots();
+        let mut list = Vec::new();
+        for span in knots.spans() {
+            let (from, to) = (knots.knots()[span], knots.knots()[span + 1].min(end));
+            if to <= from {
+                continue;
+            }
+            let first = span - knots.degree();
+            let sample = |t: f64| {
+                let [value, slope] = knots.basis_derivatives::<2>(span, t);
+                let points = &coordinate.points()[first..=span];
+                let along = |row: &[f64; FUNCTIONS]| points.iter().zip(row).map(|(p, b)| p[0] * b).sum::<f64>();
+                (along(&value), along(&slope), if slopes { slope } else { value })
+            };
+            list.extend(panels(&sample, [from, to], slopes, TOLERANCE).into_iter().map(|panel| (first, panel)));
+        }
+        Self { panels: list, functions: knots.degree() + 1, count: knots.basis_count() }
+    }
+}
+
+/// A hull whose chart is a rectangle, and the part of it below a waterline.
+#[derive(Debug, Clone)]
+pub(super) struct NetKochin {
+    along: Axis,
+    up: Axis,
+    /// Control half-breadths, the index of the height runs fastest \[m\].
+    breadths: Vec<f64>,
+    draught: f64,
+    /// x of the fore end, where a bow that is open is closed \[m\].
+    fore: f64,
+}
+
+/// Room for the values of one evaluation.
+#[derive(Debug, Clone, Default)]
+pub(super) struct NetValues {
+    /// Real parts of G_i.
+    real: Vec<f64>,
+    /// Imaginary parts of G_i.
+    imaginary: Vec<f64>,
+    /// H_j.
+    heights: Vec<f64>,
+}
+
+impl NetKochin {
+    /// None unless stations and waterlines are lines of the net.
+    pub(super) fn new(hull: &Hull, draught: f64) -> Option<Self> {
+        let heights = hull.heights().filter(|_| hull.is_upright())?;
+        let surface = hull.surface();
+        let [rows, columns] = surface.shape();
+        let lengths = (0..rows).map(|i| [surface.point(i, 0)[0]]).collect();
+        let lengths = BsplineCurve::new(surface.u().clone(), lengths).ok()?;
+        let top = hull.height_parameter(draught.min(hull.top()))?;
+        Some(Self {
+            fore: surface.point(rows - 1, 0)[0],
+            along: Axis::new(&lengths, true, f64::INFINITY),
+            up: Axis::new(heights, false, top),
+            breadths: (0..rows * columns).map(|k| surface.point(k / columns, k % columns)[1]).collect(),
+            draught,
+        })
+    }
+
+    /// Number of control values.
+    pub(super) fn len(&self) -> usize {
+        self.breadths.len()
+    }
+
+    /// Adds to one control value.
+    #[cfg(test)]
+    pub(super) fn change(&mut self, index: usize, by: f64) {
+        self.breadths[index] += by;
+    }
+
+    /// F at wave number `k` and decay `q`, real and imaginary part [m^2].
+    pub(super) fn kochin(&self, k: f64, q: f64, values: &mut NetValues) -> [f64; 2] {
+        self.along_values(k, values);
+        self.up_values(q, values);
+        let mut sums = [0.0; 2];
+        for (row, (real, imaginary)) in
+            self.breadths.chunks_exact(self.up.count).zip(values.real.iter().zip(&values.imaginary))
+        {
+            let breadth: f64 = row.iter().zip(&values.heights).map(|(c, h)| c * h).sum();
+            sums[0] += real * breadth;
+            sums[1] += imaginary * breadth;
+        }
+        sums
+    }
+
+    /// Adds `factor` times the derivatives of |F|^2 by the control values, at the values of the last evaluation.
+    pub(super) fn add_gradient(&self, f: [f64; 2], factor: f64, values: &NetValues, gradient: &mut [f64]) {
+        for (row, (real, imaginary)) in
+            gradient.chunks_exact_mut(self.up.count).zip(values.real.iter().zip(&values.imaginary))
+        {
+            let along = 2.0 * factor * (f[0] * real + f[1] * imaginary);
+            for (entry, height) in row.iter_mut().zip(&values.heights) {
+                *entry += along * height;
+            }
+        }
+    }
+
+    fn along_values(&self, k: f64, values: &mut NetValues) {
+        let mut moments = Moments::default();
+        for list in [&mut values.real, &mut values.imaginary] {
+            list.clear();
+            list.resize(self.along.count, 0.0);
+        }
+        for (first, panel) in &self.along.panels {
+            let of_wave = *moments.of_wave(k, panel.half);
+            let (sine, cosine) = (k * panel.middle).sin_cos();
+            let ends = *first..*first + self.along.functions;
+            let targets = values.real[ends.clone()].iter_mut().zip(&mut values.imaginary[ends]);
+            for ((real, imaginary), series) in targets.zip(&panel.series) {
+                let [a, b] = oscillation(series, &of_wave, panel.count);
+                *real += cosine * a - sine * b;
+                *imaginary += cosine * b + sine * a;
+            }
+        }
+        // A flat bow falls to the centreplane at one x.
+        let (sine, cosine) = (k * self.fore).sin_cos();
+        values.real[self.along.count - 1] -= cosine;
+        values.imaginary[self.along.count - 1] -= sine;
+    }
+
+    fn up_values(&self, q: f64, values: &mut NetValues) {
+        let mut moments = Moments::default();
+        values.heights.clear();
+        values.heights.resize(self.up.count, 0.0);
+        for (first, panel) in &self.up.panels {
+            let depth = self.draught - panel.middle - panel.half;
+            let factor = panel.half * (-q * depth.max(0.0)).exp();
+            if factor < f64::MIN_POSITIVE {
+                continue;
+            }
+            let of_decay = moments.of_decay(q, panel.half);
+            let targets = values.heights[*first..*first + self.up.functions].iter_mut();
+            for (height, series) in targets.zip(&panel.series) {
+                *height += factor * series.iter().zip(of_decay).take(panel.count).map(|(c, i)| c * i).sum::<f64>();
+            }
+        }
+    }
+}
