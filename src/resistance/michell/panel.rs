@@ -7,7 +7,7 @@ pub(super) const TERMS: usize = 8;
 /// Nodes of the rule that finds them: exact for what has twice as many terms.
 const NODES: usize = 10;
 /// Most halvings of a span.
-const HALVINGS: u32 = 12;
+const HALVINGS: u32 = 16;
 /// Terms below this part of the largest are rounding.
 const ROUNDING: f64 = 1e-13;
 /// Halves of panels that differ by less than this part are one.
@@ -104,17 +104,16 @@ fn parameter<const K: usize>(sample: &impl Fn(f64) -> Sample<K>, ends: [f64; 2],
     for _ in 0..40 {
         let (value, slope, _) = sample(t);
         let miss = value - x;
+        if (miss / slope).abs() <= 1e-15 * (ends[1] - ends[0]).abs().max(t.abs()) {
+            break;
+        }
         if miss > 0.0 {
             high = t;
         } else {
             low = t;
         }
         let next = t - miss / slope;
-        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        if (next - t).abs() <= 1e-15 * (ends[1] - ends[0]).abs().max(t.abs()) {
-            break;
-        }
-        t = next;
+        t = if next > low && next < high { next } else { 0.5 * (low + high) };
     }
     t
 }
