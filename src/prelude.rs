@@ -37,7 +37,7 @@ pub use crate::report::{
 };
 
 use crate::report::{
-    Destination, fair_outputs, faired_curve, fit_outputs, generate_outputs, read_design, read_fair, read_fit,
+    Destination, Inputs, fair_outputs, faired_curve, fit_outputs, generate_outputs, read_design, read_fair, read_fit,
     read_hydrostatic_body, read_result, read_source, report_outputs, sections_of,
 };
 
@@ -136,7 +136,7 @@ pub fn report(result: impl AsRef<Path>) -> Result<Vec<OutputFile>, Failure> {
 /// # Errors
 /// [`Failure::Exists`] where one of them is there already; [`Failure::FileSystem`].
 pub fn write(files: &[OutputFile], folder: impl AsRef<Path>) -> Result<(), Failure> {
-    Destination { folder: folder.as_ref(), inputs: &[], force: false }.write(files)
+    Destination { folder: folder.as_ref(), inputs: &Inputs::default(), force: false }.write(files)
 }
 
 /// Writes files to a folder over those that are there.
@@ -144,5 +144,5 @@ pub fn write(files: &[OutputFile], folder: impl AsRef<Path>) -> Result<(), Failu
 /// # Errors
 /// [`Failure::FileSystem`].
 pub fn overwrite(files: &[OutputFile], folder: impl AsRef<Path>) -> Result<(), Failure> {
-    Destination { folder: folder.as_ref(), inputs: &[], force: true }.write_run(files)
+    Destination { folder: folder.as_ref(), inputs: &Inputs::default(), force: true }.write_run(files)
 }

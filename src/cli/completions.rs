@@ -6,7 +6,7 @@ use clap::{Args, Command, CommandFactory, ValueEnum};
 use clap_complete::Shell;
 
 use super::{Cli, stream};
-use crate::report::{Destination, Failure, OutputFile};
+use crate::report::{Destination, Failure, Inputs, OutputFile};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -55,7 +55,7 @@ fn files() -> Result<Vec<OutputFile>, Failure> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(folder) = &arguments.output {
-        return Destination { folder, inputs: &[], force: arguments.force }.write(&files()?);
+        return Destination { folder, inputs: &Inputs::default(), force: arguments.force }.write(&files()?);
     }
     match arguments.shell {
         Some(shell) => stream::data(&String::from_utf8_lossy(&completions(shell).contents)),

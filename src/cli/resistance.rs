@@ -9,8 +9,8 @@ use super::{Lengths, length, positive, stream};
 use crate::exchange::resistance_json;
 use crate::hydrostatics::DENSITIES;
 use crate::report::{
-    Destination, Failure, ResistanceJob, ResistanceOptions, resistance_files, resistance_outputs, resistance_page,
-    source_files,
+    Destination, Failure, Inputs, ResistanceJob, ResistanceOptions, resistance_files, resistance_outputs,
+    resistance_page, source_files,
 };
 use crate::resistance::{Appendage, AppendageKind, Method, SternShape, TEMPERATURES};
 use crate::units::{Dimension, parse, parse_list};
@@ -271,7 +271,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     outputs.warnings.iter().for_each(|warning| stream::message(warning));
     if let Some(folder) = &arguments.output {
-        let inputs = source_files(&arguments.hull);
+        let inputs = Inputs::of(&source_files(&arguments.hull));
         Destination { folder, inputs: &inputs, force: arguments.force }
             .write_run(&resistance_files(&outputs, !arguments.no_figures)?)?;
     }

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const DESIGNS: [Explanation; 50] = [
+pub(super) const DESIGNS: [Explanation; 53] = [
     Explanation {
         code: "E101",
         title: "Value out of its range",
@@ -200,6 +200,20 @@ pub(super) const DESIGNS: [Explanation; 50] = [
         remedy: "Write the header and the record, or give the parameters as a design file.",
     },
     Explanation {
+        code: "E131",
+        title: "More problems than are shown",
+        cause: "A file has more problems than the 50 that are printed. The message counts the others.",
+        example: "A CSV file given to `generate` as a design.",
+        remedy: "Correct those that are shown, or check that the file is of the kind that the command reads.",
+    },
+    Explanation {
+        code: "E132",
+        title: "Name of a file that no drawing can show",
+        cause: "The name of the file has control characters or is too long.",
+        example: "A file whose name has a line break.",
+        remedy: "Rename the file.",
+    },
+    Explanation {
         code: "E140",
         title: "Hull file that is not JSON",
         cause: "A hull file `hull.json` is not JSON, is cut off, or lacks a member.",
@@ -360,6 +374,13 @@ pub(super) const DESIGNS: [Explanation; 50] = [
         cause: "A target such as C_B, C_M, LCB or GM refers to a draught, and neither table nor job states one.",
         example: "`loftsman fair table.csv --cb 0.7` for a table without T.",
         remedy: "Give `--draught`, or T in metres below `[table]` or `[dimensions]`. Or leave the target out.",
+    },
+    Explanation {
+        code: "E185",
+        title: "Folder with files of another run",
+        cause: "A file of the folder differs from what the manifest lists. It is of another run, or was changed since.",
+        example: "`report out/frigate` after `offsets.csv` in it was edited.",
+        remedy: "Run the command again with `--force`, and report then.",
     },
     Explanation {
         code: "E199",

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 24] = [
+pub(super) const REMARKS: [Explanation; 30] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -30,6 +30,13 @@ pub(super) const REMARKS: [Explanation; 24] = [
         cause: "The parallel body does not reach Lpp/2. C_M is then held at the largest section, not at midship.",
         example: "`parallel_body = [0.52, 0.6]`.",
         remedy: "Let the parallel body contain 0.5, or accept C_M at the stated position.",
+    },
+    Explanation {
+        code: "W204",
+        title: "Design that hardly any ship has",
+        cause: "LCB is more than 6 % of Lpp from midship, or a half angle of entrance is outside 3 to 70 degrees.",
+        example: "`LCB = \"8 %\"` in a design file.",
+        remedy: "Check the sign of LCB, where AP is, and the lengths of entrance and run.",
     },
     Explanation {
         code: "W306",
@@ -165,6 +172,13 @@ pub(super) const REMARKS: [Explanation; 24] = [
         remedy: "State Lpp, B and T of the body in metres.",
     },
     Explanation {
+        code: "W354",
+        title: "Hull that hardly any ship is",
+        cause: "At the design draught LCB is more than 6 % of Lpp from midship, or a half angle of entrance is outside 3 to 70 degrees.",
+        example: "`hydro` of a mesh whose bow points aft.",
+        remedy: "Check where AP is, and the forward axis (`--axes`).",
+    },
+    Explanation {
         code: "W401",
         title: "Targets met by adding inflections",
         cause: "The hull of `fair` meets its targets, and all lines together have more inflections than before.",
@@ -177,5 +191,33 @@ pub(super) const REMARKS: [Explanation; 24] = [
         cause: "Single lines of the fair hull have more inflections than on the surface through the table.",
         example: "`1 line bends more often than before: waterline 0.965 m 4 > 7`.",
         remedy: "Limit their number below `shape.inflections`, or take less smoothing with `--weight`.",
+    },
+    Explanation {
+        code: "W510",
+        title: "Speeds outside the range of the data",
+        cause: "Figures of a statistical method are extrapolated: a Froude number or a coefficient is outside the range of its data.",
+        example: "`resistance configs/yacht.toml --speeds 30:40:1`",
+        remedy: "Take lower speeds or another method, or treat these figures as an extrapolation.",
+    },
+    Explanation {
+        code: "W511",
+        title: "Half angle of entrance assumed",
+        cause: "The stem is rounded, so that the angle of the waterline there is no half angle of entrance. One is assumed.",
+        example: "`resistance configs/bulk-carrier.toml --speeds 12:16:1`",
+        remedy: "State `--half-angle`.",
+    },
+    Explanation {
+        code: "W512",
+        title: "Hull that is not thin",
+        cause: "Thin-ship theory assumes a slender hull. At this hull its figures rank hulls at best.",
+        example: "`resistance configs/bulk-carrier.toml --speeds 12:16:1 --method michell`",
+        remedy: "Compare with `--method holtrop-1984`.",
+    },
+    Explanation {
+        code: "W513",
+        title: "Form factor or bulb assumed",
+        cause: "Nobody stated the form factor or the bulb, and the result depends on it.",
+        example: "`resistance configs/wigley.toml --speeds 10:20:2 --method michell`",
+        remedy: "State `--form-factor`, or `--bulb-area` and `--bulb-height`.",
     },
 ];

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const RESULTS: [Explanation; 10] = [
+pub(super) const RESULTS: [Explanation; 16] = [
     Explanation {
         code: "E401",
         title: "Infeasible targets",
@@ -57,6 +57,13 @@ pub(super) const RESULTS: [Explanation; 10] = [
          `loftsman check`.",
     },
     Explanation {
+        code: "E510",
+        title: "Particulars that no formula serves",
+        cause: "A particular of the hull that the method needs is missing or is none that a ship has.",
+        example: "`resistance` of a hull whose waterline is all parallel body.",
+        remedy: "State the particular by the option that the message names, or take `--method michell`.",
+    },
+    Explanation {
         code: "E601",
         title: "Files that exist",
         cause: "The command would overwrite files, and does not do so without `--force`.",
@@ -69,6 +76,41 @@ pub(super) const RESULTS: [Explanation; 10] = [
         cause: "The operating system refuses to read, write or remove a file or a folder.",
         example: "`loftsman hydro nothing.csv`: no such file.",
         remedy: "Check the path, the permissions and the space. The message ends with what may help.",
+    },
+    Explanation {
+        code: "E701",
+        title: "Unknown option, argument or command",
+        cause: "The command line has a word that the program does not know.",
+        example: "`loftsman fair offsets.csv --tolerances 5`",
+        remedy: "Correct the word. `loftsman help COMMAND` lists all options.",
+    },
+    Explanation {
+        code: "E702",
+        title: "Missing option, argument or value",
+        cause: "The command needs an argument, or an option needs a value, and there is none.",
+        example: "`loftsman hydro`",
+        remedy: "Give it. The usage line shows where it stands.",
+    },
+    Explanation {
+        code: "E703",
+        title: "Value that an option does not take",
+        cause: "The value of an option is of another kind, or outside its range.",
+        example: "`loftsman report out/frigate --dpi 5000`",
+        remedy: "Give a value as the message expects it.",
+    },
+    Explanation {
+        code: "E704",
+        title: "Options that exclude each other",
+        cause: "Two options contradict each other, or one is given twice.",
+        example: "`--km 9 --gm 1`",
+        remedy: "Leave one of them out.",
+    },
+    Explanation {
+        code: "E705",
+        title: "Request that the command cannot meet",
+        cause: "Options together request what the command cannot give for this hull or this file.",
+        example: "`export hull.json -f gdf` of a hull without a draught.",
+        remedy: "Follow the message: it names the option that is missing or too many.",
     },
     Explanation {
         code: "E901",

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const TABLES: [Explanation; 30] = [
+pub(super) const TABLES: [Explanation; 31] = [
     Explanation {
         code: "E300",
         title: "No table of offsets",
@@ -116,6 +116,13 @@ pub(super) const TABLES: [Explanation; 30] = [
         cause: "A position or an offset exceeds 100000 m.",
         example: "`1e7` as a half-breadth in metres.",
         remedy: "Correct the number, or its unit.",
+    },
+    Explanation {
+        code: "E316",
+        title: "Name that no drawing can show",
+        cause: "A name or a label of the table has control characters or is too long.",
+        example: "A station whose name has 40,000 characters.",
+        remedy: "Shorten the name, and take out control characters.",
     },
     Explanation {
         code: "E321",
