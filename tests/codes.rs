@@ -145,7 +145,7 @@ fn the_command_explains_codes() {
     assert_eq!((&json[0]["code"], &json[0]["title"], json.as_array().unwrap().len()), (&code.into(), &title.into(), 1));
     let unknown = program(&["explain", code, "E1O1"]);
     assert!(unknown.status.code() == Some(2) && unknown.stdout.is_empty());
-    assert!(stderr(&unknown).starts_with("no message has the code 'E1O1'. Did you mean "), "{}", stderr(&unknown));
+    assert!(stderr(&unknown).starts_with("E705 no message has the code 'E1O1'. Did you mean "), "{}", stderr(&unknown));
 }
 
 /// Refusals name the command that explains them, once and on stderr; not beside JSON, and not without a code.

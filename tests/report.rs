@@ -255,13 +255,13 @@ fn what_is_missing_from_a_result_is_told() {
 }
 
 #[test]
-fn a_result_that_was_changed_since_is_told() {
+fn a_result_that_was_changed_since_is_refused() {
     let path = generated("stale");
     assert!(read_result(&path).unwrap().notes.is_empty());
     let hull = read_text(path.join("hull.json"));
     fs::write(path.join("hull.json"), hull + "\n").unwrap();
-    let notes = read_result(&path).unwrap().notes;
-    assert!(notes.len() == 1 && notes[0].contains("hull.json is not what the run wrote"), "{notes:?}");
+    let refused = read_result(&path).unwrap_err().to_string();
+    assert!(refused.starts_with("E185 ") && refused.contains("hull.json"), "{refused}");
 }
 
 #[test]

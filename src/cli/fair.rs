@@ -112,8 +112,8 @@ manifest.json, figures; with --grades: grades.csv, grades/N/hull.json.
 The first line says whether the hull is fairer: changes of sign and monotone pieces of the curvature of stations and \
 waterlines before > after, with the proved least number of changes of sign. Eight lines follow; --verbose prints the rest.
 Exit code 4 when the targets cannot all be met within the tolerances; the best compromise is written, marked. Exit code 5 when \
-they are met and stations and waterlines have more changes of sign or more monotone pieces than before, or from --fairness 5 on no \
-fewer changes of sign and more than 1.5 times the least and 2. With --fairness 0 exit code 0.
+they are met and stations and waterlines have more changes of sign or more monotone pieces than before. From --fairness 5 on also \
+where they have no fewer changes of sign and more than 1.5 times the least and 2. With --fairness 0 exit code 0.
 Tables of offsets are all that `loftsman fit --help` lists.";
 
 /// Options that were removed, all of which --fairness serves, and whether they took a value.

@@ -68,7 +68,7 @@ Control polygon: + outboard, - inboard, 0 within a tenth of the tolerance of the
 enclose no sign between two opposite ones.
 Not counted are curves whose half-breadth is below B/1000 all along, and ends of curves longer than B/50 where it is.
 JSON: name, tolerance, curves (kind, at, branch, length, turning, inflections, inflections_at, extrema, extrema_at, max_curvature, \
-max_curvature_at, max_step, bending_energy, variation_energy, flats, knuckles, without_breadth), totals, empty, no_breadth, net (line, index, at, signs, \
+max_curvature_at, max_step, bending_energy, variation_energy, flats, knuckles, without_breadth); totals, empty, no_breadth, net (line, index, at, signs, \
 changes, enclosed), surface (area, bending_energy, degenerate_points, gaussian, mean, principal_1, principal_2 with least and greatest).";
 
 fn scale(text: &str) -> Result<f64, String> {

@@ -202,7 +202,7 @@ fn told(failure: &Failure, as_json: bool) -> ExitCode {
         let _ = stream::json(&failure.to_json()).and_then(|text| stream::data(&text));
     }
     stream::message(&failure.to_string());
-    if let Some(code) = failure.code().filter(|_| !as_json) {
+    if let Some(code) = failure.code().filter(|_| !as_json && failure.exit_code() != 2) {
         stream::message(&format!("More: loftsman explain {code}"));
     }
     ExitCode::from(failure.exit_code())

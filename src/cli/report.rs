@@ -45,8 +45,8 @@ Every figure is written as PNG and as SVG in millimetres; report.html holds all 
 space, and opens without a network; report.pdf holds them at true size, each sheet with a check bar of 100 mm.
 Of every hull: lines plan, body plan, sectional areas, hydrostatic curves, diagram sheet, Bonjean curves, maps of Gaussian and mean \
 curvature and zebra stripes over the developed side. Of `fair`, besides: constraints and prices, suspects, moves as a map and as arrows \
-in three views, the lines that moved most with the tolerances of their offsets, stations, waterlines, buttocks and diagonals before and \
-after with combs (one scale for each kind of line), moves against the assumed noise, the search for the weight, deviation against fairness, convergence.
+in three views; the lines that moved most with the tolerances of their offsets, stations, waterlines, buttocks and diagonals before and \
+after with combs (one scale for each kind of line); moves against the assumed noise, the search for the weight, deviation against fairness, convergence.
 Tables: offsets, heights and diagonals in metres, millimetres and feet-inches-eighths; hydrostatics as CSV, JSON and XLSX with its \
 conventions; Bonjean areas; changes.";
 

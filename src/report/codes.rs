@@ -149,9 +149,9 @@ mod tests {
 
     #[test]
     fn unknown_codes_propose_the_nearest() {
-        assert_eq!(refused("E302"), "no message has the code 'E302'. Did you mean E301, E303 or E300?");
-        assert_eq!(refused("x164"), "no message has the code 'x164'. Did you mean W164?");
-        assert_eq!(refused("cell"), "no message has the code 'cell'. `loftsman explain` lists all codes");
+        assert_eq!(refused("E302"), "E705 no message has the code 'E302'. Did you mean E301, E303 or E300?");
+        assert_eq!(refused("x164"), "E705 no message has the code 'x164'. Did you mean W164?");
+        assert_eq!(refused("cell"), "E705 no message has the code 'cell'. `loftsman explain` lists all codes");
         assert_eq!(refused("").lines().count(), 1);
     }
 

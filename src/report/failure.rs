@@ -225,7 +225,7 @@ mod tests {
         let warning = problem("W164", Path::new("a.csv"), "one suspect".to_owned(), "");
         let error = problem("E162", Path::new("a.csv"), "1 station".to_owned(), "");
         assert_eq!(Failure::Input(vec![warning, error]).code(), Some("E162"));
-        assert_eq!(Failure::Usage("no folder".to_owned()).code(), None);
+        assert_eq!(Failure::Usage("no folder".to_owned()).code(), Some("E705"));
         assert_eq!(Failure::Check("E501 the self-test failed".to_owned()).code(), Some("E501"));
     }
 }

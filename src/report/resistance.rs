@@ -1,12 +1,4 @@
 //! The job of `resistance`: a hull, a method and speeds become a table, files and a figure.
-//!
-//! | code | about |
-//! |---|---|
-//! | E510 | a ship for which the formulas are not defined |
-//! | W510 | figures outside the range of the data of a method |
-//! | W511 | a half angle of entrance that is not that of the hull |
-//! | W512 | a hull on which thin-ship theory ranks at best |
-//! | W513 | an assumption that could change the result much |
 
 use std::path::PathBuf;
 
