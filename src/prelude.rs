@@ -10,7 +10,7 @@
 //! | [`open`] | the same | the hull, for [`sections`] and [`export`] |
 //! | [`report`] | the folder of a result | figures and pages |
 //!
-//! Nothing is written but by [`write`] and [`overwrite`]. All lengths are in metres: x forward from AP, y to port, z up
+//! Nothing is written but by [`write()`] and [`overwrite`]. All lengths are in metres: x forward from AP, y to port, z up
 //! from the base line. Every error is a [`Failure`], which has the code, the place and the remedy of each problem.
 //!
 //! ```
