@@ -1,7 +1,7 @@
 //! loftsman generates, fits and fairs ship hulls as B-spline surfaces, and computes their hydrostatics and drawings.
 //!
-//! Fairing is one convex program. For control values c \[m\], offsets y with rows M, standard deviations S of their errors,
-//! and an energy P of fourth derivatives
+//! Fairing is one convex program in the control values c \[m\]. The offsets y have rows M and errors of standard deviations S.
+//! P is an energy of fourth derivatives.
 //!
 //! ```text
 //! minimise    |S^-1 (M c - y)|^2 + w c'P c

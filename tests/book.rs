@@ -1,11 +1,11 @@
 //! README and book: their links lead somewhere, their sentences are short, and every page is in the summary.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use loftsman::config::{JOB_KEYS, KEYS, Key, METHOD_KEYS};
 use loftsman::hydrostatics::QUANTITIES;
 
-use crate::support::{carried, program, read_text, stdout};
+use crate::support::{carried, commands, files_of, program, read_text, stdout};
 
 /// Most words of a sentence.
 const WORDS: usize = 40;
@@ -13,26 +13,11 @@ const WORDS: usize = 40;
 /// Most lines of the README.
 const LINES: usize = 120;
 
-/// The Markdown files of a folder and of those in it.
-fn pages(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(pages(&path));
-        } else if path.extension().is_some_and(|ending| ending == "md") {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
-
 /// README, the documents beside it and all pages of the book.
 fn documents() -> Vec<PathBuf> {
     let mut documents = vec![carried("README.md")];
     documents.extend(["ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md"].map(carried));
-    documents.extend(pages(&carried("docs/src")));
+    documents.extend(files_of(&carried("docs/src"), "md"));
     documents
 }
 
@@ -98,7 +83,8 @@ fn every_page_is_in_the_summary() {
     let folder = carried("docs/src");
     let listed: Vec<PathBuf> =
         links(&read_text(folder.join("SUMMARY.md"))).iter().map(|link| folder.join(link)).collect();
-    let pages: Vec<PathBuf> = pages(&folder).into_iter().filter(|page| !page.ends_with("SUMMARY.md")).collect();
+    let pages: Vec<PathBuf> =
+        files_of(&folder, "md").into_iter().filter(|page| !page.ends_with("SUMMARY.md")).collect();
     assert!(pages.len() > 15);
     for page in pages {
         assert_eq!(listed.iter().filter(|other| **other == page).count(), 1, "{}", page.display());
@@ -116,18 +102,15 @@ fn the_readme_is_short_and_no_sentence_is_long() {
 
 #[test]
 fn no_sentence_of_the_help_is_long() {
-    let help = stdout(&program(&["--help"]));
-    let (_, list) = help.split_once("Commands:").unwrap();
-    let names = list.split("\n\n").next().unwrap().lines().filter_map(|line| line.strip_prefix("  "));
-    let commands = names.filter(|line| !line.starts_with(' ')).filter_map(|line| line.split(' ').next());
-    let faults: Vec<String> = commands
+    let faults: Vec<String> = commands()
+        .into_iter()
         .flat_map(|command| {
             // An option begins further out than what is said of it.
             let text =
-                stdout(&program(&["help", command])).replace("\n  -", "\n\n  -").replace("\n      -", "\n\n      -");
+                stdout(&program(&["help", &command])).replace("\n  -", "\n\n  -").replace("\n      -", "\n\n      -");
             // Items of a list end at semicolons.
             let text = text.replace(';', ".");
-            long(command, &text)
+            long(&command, &text)
         })
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));

@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use crate::support::{carried, program, read_text, sources, stdout};
+use crate::support::{carried, commands, files_of, program, read_text, sources, stdout};
 
 /// Barred words with their forms; words of a phrase may stand on two lines.
 const BARRED: [&[&str]; 10] = [
@@ -190,22 +190,11 @@ fn listed(name: &str, found: Vec<(usize, &str)>) -> Vec<String> {
 fn barred_words_stand_nowhere() {
     let root = carried("");
     let mut faults = Vec::new();
-    let mut documents = vec![
-        "README.md".to_owned(),
-        "CONTRIBUTING.md".to_owned(),
-        "ARCHITECTURE.md".to_owned(),
-        "RELEASING.md".to_owned(),
-    ];
-    let mut folders = vec![root.join("docs"), root.join("configs")];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-            let path = entry.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "md" || ending == "toml") {
-                documents.push(path.strip_prefix(&root).unwrap().display().to_string());
-            }
-        }
+    let mut documents =
+        ["README.md", "CONTRIBUTING.md", "ARCHITECTURE.md", "RELEASING.md"].map(ToOwned::to_owned).to_vec();
+    let all = [("docs", "md"), ("docs", "toml"), ("configs", "md"), ("configs", "toml")];
+    for path in all.into_iter().flat_map(|(folder, ending)| files_of(&root.join(folder), ending)) {
+        documents.push(path.strip_prefix(&root).unwrap().display().to_string());
     }
     for name in documents {
         let text = read_text(root.join(&name));
@@ -224,14 +213,11 @@ fn barred_words_stand_nowhere() {
 #[test]
 fn barred_words_stand_in_no_help() {
     let help = stdout(&program(&["--help"]));
-    let (_, list) = help.split_once("Commands:").unwrap();
-    // A description may run on in the next line, further in.
-    let names = list.split("\n\n").next().unwrap().lines().filter_map(|line| line.strip_prefix("  "));
-    let commands: Vec<&str> = names.filter(|line| !line.starts_with(' ')).filter_map(|l| l.split(' ').next()).collect();
-    assert!(commands.len() > 15 && commands.contains(&"fair-curve"), "{commands:?}");
+    let commands = commands();
+    assert!(commands.len() > 15 && commands.iter().any(|command| command == "fair-curve"), "{commands:?}");
     let mut faults = Vec::new();
     for command in commands {
-        let text = stdout(&program(&["help", command]));
+        let text = stdout(&program(&["help", &command]));
         assert!(text.contains("Usage:"), "{command}");
         let found = barred(&text).into_iter().map(|(at, form)| (line(&text, at), form)).collect();
         faults.extend(listed(&format!("loftsman {command} --help"), found));

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::run_files::stem;
 use super::{length, positive, stream};
 use crate::exchange::{CadUnit, DxfVersion};
 use crate::report::{
@@ -122,13 +123,7 @@ fn datum(text: &str) -> Result<Datum, String> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
-    let stem = arguments
-        .hull
-        .file_stem()
-        .filter(|stem| *stem != "-")
-        .unwrap_or_else(|| "hull".as_ref())
-        .to_string_lossy()
-        .into_owned();
+    let stem = stem(&arguments.hull).to_string_lossy().into_owned();
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&stem));
     let datum = match arguments.datum {
         Datum::Height(height) => height,

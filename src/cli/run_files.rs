@@ -1,5 +1,6 @@
 //! What the commands that write a folder of files have in common: where, over what, which figures, what is printed.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -26,10 +27,15 @@ pub(super) struct RunFiles {
     pub(super) quiet: bool,
 }
 
+/// What files about an input are called: its name without ending, or `hull` of standard input.
+pub(super) fn stem(input: &Path) -> &OsStr {
+    input.file_stem().filter(|stem| *stem != "-").unwrap_or_else(|| "hull".as_ref())
+}
+
 impl RunFiles {
     /// The folder for the files about one input; `several` when the command was given more than one.
     pub(super) fn folder(&self, input: &Path, several: bool) -> PathBuf {
-        let name = input.file_stem().filter(|stem| *stem != "-").unwrap_or_else(|| "hull".as_ref());
+        let name = stem(input);
         match &self.output {
             Some(folder) if several => folder.join(name),
             Some(folder) => folder.clone(),

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::codes::explanation;
 use crate::config::{Diagnostic, Severity};
 
 /// Why a job did not end well.
@@ -85,9 +84,17 @@ impl Failure {
     /// The code of the first error of the message; none of messages without a code.
     #[must_use]
     pub fn code(&self) -> Option<&'static str> {
-        let text = self.to_string();
-        let first = |line: &str| explanation(line.split_once(' ')?.0).map(|found| found.code);
-        text.lines().filter_map(first).find(|code| code.starts_with('E'))
+        match self {
+            Self::Input(messages) | Self::Infeasible(messages) | Self::Options(messages) => {
+                messages.iter().map(|message| message.code).find(|code| code.starts_with('E'))
+            }
+            Self::Exists(_) => Some("E601"),
+            Self::FileSystem { .. } => Some("E602"),
+            Self::Usage(message) => Some(coded("E705", message).code),
+            Self::Check(message) => Some(coded("E502", message).code),
+            Self::Internal(_) => Some("E901"),
+            Self::Several { .. } => None,
+        }
     }
 
     /// The failure for other programs: `{"error": [{"code", "file", "line", "key", "message", "found", "expected",

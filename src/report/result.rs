@@ -280,17 +280,12 @@ fn of_folder(mut reader: ResultReader) -> Result<JobResult, Failure> {
         Some(text) => first_column(&folder.join("hydrostatics.csv"), &text)?,
         None => default_draughts(p.draught, p.depth),
     };
-    let (mut notes, mut origin, mut written) = (Vec::new(), None, Vec::new());
+    let (mut origin, mut written) = (None, Vec::new());
     if let Some(text) = reader.there("manifest.json")? {
         origin = read_manifest_input(&text);
         written = read_manifest_outputs(&text);
-        let other =
-            |entry: &&ManifestEntry| written.iter().any(|one| one.file == entry.file && one.sha256 != entry.sha256);
-        notes.extend(reader.inputs.iter().filter(other).map(|entry| {
-            format!("{} is not what the run wrote (manifest.json has another hash)", folder.join(&entry.file).display())
-        }));
     }
-    notes.extend(missing(&folder, &written, fairing.is_some()));
+    let notes = missing(&folder, &written, fairing.is_some());
     Ok(JobResult {
         draughts,
         fairing,

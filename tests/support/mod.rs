@@ -126,19 +126,33 @@ pub(crate) fn names_in(folder: impl AsRef<Path>) -> Vec<String> {
     names
 }
 
-/// The Rust sources in a folder and in the folders within it, in order.
-pub(crate) fn sources(folder: &Path) -> Vec<PathBuf> {
+/// The files with an ending in a folder and in the folders within it, in order.
+pub(crate) fn files_of(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            files.extend(sources(&path));
-        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.extend(files_of(&path, ending));
+        } else if path.extension().is_some_and(|e| e == ending) {
             files.push(path);
         }
     }
     files.sort();
     files
+}
+
+/// The Rust sources in a folder and in the folders within it, in order.
+pub(crate) fn sources(folder: &Path) -> Vec<PathBuf> {
+    files_of(folder, "rs")
+}
+
+/// The commands that the help lists.
+pub(crate) fn commands() -> Vec<String> {
+    let help = stdout(&program(&["--help"]));
+    let (_, list) = help.split_once("Commands:").unwrap();
+    // A description may run on in the next line, further in.
+    let names = list.split("\n\n").next().unwrap().lines().filter_map(|line| line.strip_prefix("  "));
+    names.filter(|line| !line.starts_with(' ')).filter_map(|l| l.split(' ').next()).map(ToOwned::to_owned).collect()
 }
 
 /// What is read from a text under the name of a file.
