@@ -294,6 +294,11 @@ impl BandedCholesky {
     /// Solves M x = b in place.
     pub fn solve(&self, b: &mut [f64]) {
         self.forward(b);
+        self.backward(b);
+    }
+
+    /// Solves L'x = y in place.
+    pub fn backward(&self, b: &mut [f64]) {
         for (j, column) in self.panels.columns_down().rev() {
             let (known, own) = (&b[j + 1..j + column.len()], b[j]);
             b[j] = (own - dot(&column[1..], known)) / column[0];
@@ -331,16 +336,26 @@ impl BandedCholesky {
 
     /// Solves M X = B in place for right-hand sides that follow one another, in products of dense blocks.
     pub fn solve_blocks(&self, b: &mut [f64]) {
+        self.forward_blocks(b);
+        self.backward_blocks(b);
+    }
+
+    /// Solves L Y = B in place for right-hand sides that follow one another. Those that begin with zeros cost less where the
+    /// ones before them do not begin with more.
+    pub fn forward_blocks(&self, b: &mut [f64]) {
         let (n, block) = (self.panels.size, self.panels.block);
-        let count = b.len() / n.max(1);
-        if count == 0 {
+        if b.is_empty() || n == 0 {
             return;
         }
+        let first_of = |b: &[f64]| b.iter().position(|value| value.abs() > 0.0).unwrap_or(n);
+        let firsts: Vec<usize> = b.chunks_exact(n).map(first_of).collect();
         let mut known = Vec::new();
         for p in 0..self.panels.count() {
             let (panel, columns, first) = (self.panels.panel(p), self.panels.columns(p), p * block);
+            // The last of those that have begun.
+            let count = firsts.iter().rposition(|begins| *begins < first + columns).map_or(0, |last| last + 1);
             known.clear();
-            for b in b.chunks_exact_mut(n) {
+            for b in b.chunks_exact_mut(n).take(count) {
                 let own = &mut b[first..first + columns];
                 for j in 0..columns {
                     let column = self.panels.diagonal(first + j, columns - j);
@@ -355,6 +370,16 @@ impl BandedCholesky {
                 subtract_product(below, n, under, Block::new(&known, [columns, count], columns));
             }
         }
+    }
+
+    /// Solves L'X = Y in place for right-hand sides that follow one another.
+    pub fn backward_blocks(&self, b: &mut [f64]) {
+        let (n, block) = (self.panels.size, self.panels.block);
+        let count = b.len() / n.max(1);
+        if count == 0 {
+            return;
+        }
+        let mut known = Vec::new();
         for p in (0..self.panels.count()).rev() {
             let (panel, columns, first) = (self.panels.panel(p), self.panels.columns(p), p * block);
             let below = panel.rows() - columns;

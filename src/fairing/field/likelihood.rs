@@ -217,16 +217,16 @@ impl Observed {
     }
 
     /// The system of a weight.
-    fn system(&self, roughness: &Roughness, weight: f64) -> Result<System<'_>, SingularMatrix> {
+    fn system(&self, roughness: &Roughness, weight: f64) -> Result<System, SingularMatrix> {
         let band = self.normal.factor_plus(weight, &roughness.matrix)?;
         let (size, count) = (self.right.len(), self.right_of_lines.len());
-        let mut solved = self.borders.clone();
-        band.solve_blocks(&mut solved);
-        let borders = DMatrixView::from_slice(&self.borders, size, count);
+        let mut halved = self.borders.clone();
+        band.forward_blocks(&mut halved);
+        let half = DMatrixView::from_slice(&halved, size, count);
         let corner = &self.corner + DMatrix::from_diagonal_element(count, count, 1.0 / self.ratio);
-        let gram = corner - borders.tr_mul(&DMatrixView::from_slice(&solved, size, count));
+        let gram = corner - half.tr_mul(&half);
         let gram = Cholesky::new(gram).ok_or(SingularMatrix { column: size })?;
-        Ok(System { size, band, borders: &self.borders, solved, gram, log_ratio: count as f64 * self.ratio.ln() })
+        Ok(System { size, band, halved, gram, log_ratio: count as f64 * self.ratio.ln() })
     }
 
     /// How likely it is that functions, given by their values at the cells, are in the errors of the field of a weight: the
@@ -329,39 +329,42 @@ impl Observed {
 /// | M'M + wP   M'L        |
 /// | L'M        L'L + I/q  |
 /// ```
-struct System<'a> {
+struct System {
+    /// C C' = M'M + wP.
     band: BandedCholesky,
-    borders: &'a [f64],
     /// Number of unknowns of the field.
     size: usize,
-    /// (M'M + wP)^-1 M'L.
-    solved: Vec<f64>,
+    /// C^-1 M'L.
+    halved: Vec<f64>,
     /// Of the Schur complement of M'M + wP.
     gram: Cholesky<f64, Dyn>,
     log_ratio: f64,
 }
 
-impl System<'_> {
+impl System {
     /// Solves for columns of right-hand sides, those of nets and those of what lines have in common.
     fn solve(&self, nets: &mut [f64], common: &mut [f64]) {
         let count = self.gram.l_dirty().nrows();
-        if nets.len() == self.size {
-            self.band.solve(nets);
+        let is_one = nets.len() == self.size;
+        if is_one {
+            self.band.forward(nets);
         } else {
-            self.band.solve_blocks(nets);
+            self.band.forward_blocks(nets);
         }
-        if count == 0 {
-            return;
+        if count > 0 {
+            let columns = common.len() / count;
+            let half: DMatrixView<'_, f64> = DMatrixView::from_slice(&self.halved, self.size, count);
+            let mut nets = DMatrixViewMut::from_slice(nets, self.size, columns);
+            let mut common = DMatrixViewMut::from_slice(common, count, columns);
+            common -= half.tr_mul(&nets);
+            self.gram.solve_mut(&mut common);
+            nets -= half * &common;
         }
-        let columns = common.len() / count;
-        let size = self.size;
-        let view = |values| DMatrixView::from_slice(values, size, count);
-        let (borders, solved): (DMatrixView<'_, f64>, DMatrixView<'_, f64>) = (view(self.borders), view(&self.solved));
-        let mut nets = DMatrixViewMut::from_slice(nets, size, columns);
-        let mut common = DMatrixViewMut::from_slice(common, count, columns);
-        common -= borders.tr_mul(&nets);
-        self.gram.solve_mut(&mut common);
-        nets -= solved * &common;
+        if is_one {
+            self.band.backward(nets);
+        } else {
+            self.band.backward_blocks(nets);
+        }
     }
 
     /// log det, with that of the variances of what lines have in common.
