@@ -68,18 +68,110 @@ fn a_row_of_vertices_at_the_waterline_may_have_errors_of_rounding() {
 }
 
 #[test]
-fn skins_that_no_hull_has_are_refused() {
-    let error = row("twice.stl", 3.0).unwrap_err().to_string();
-    assert!(error.contains("E353") && error.contains("displacement volume"), "{error}");
+fn triangles_given_twice_count_once() {
+    let twice = row("twice.stl", 3.0).unwrap();
+    assert!((twice.displacement_volume - 1800.0).abs() < 1e-9 * 1800.0, "{}", twice.displacement_volume);
+    let output = program(&["hydro", &case("twice.stl").display().to_string(), "--draughts", "3"]);
+    assert!(stderr(&output).contains("given twice: counted once"), "{}", stderr(&output));
+}
+
+/// Triangles of boxes [least, greatest] as text of an STL file; `without` one side: 0 to 2 for the axis, and whether the greater.
+fn boxes(list: &[[[f64; 3]; 2]], without: Option<(usize, bool)>) -> String {
+    let mut text = String::from("solid boxes\n");
+    for [low, high] in list {
+        let corner = |bits: usize| [0, 1, 2].map(|k| if bits >> k & 1 == 1 { high[k] } else { low[k] });
+        for axis in 0..3 {
+            for greater in [false, true] {
+                if without == Some((axis, greater)) {
+                    continue;
+                }
+                let base = usize::from(greater) << axis;
+                let (p, q) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
+                let mut around = [base, base + p, base + p + q, base + q].map(corner);
+                if !greater {
+                    around.reverse();
+                }
+                for triangle in [[0, 1, 2], [0, 2, 3]] {
+                    text.push_str("facet normal 0 0 0\nouter loop\n");
+                    for k in triangle {
+                        let [x, y, z] = around[k];
+                        text.push_str(&format!("vertex {x} {y} {z}\n"));
+                    }
+                    text.push_str("endloop\nendfacet\n");
+                }
+            }
+        }
+    }
+    text + "endsolid\n"
+}
+
+fn volume_of(name: &str, text: &str, draught: f64) -> Result<f64, Failure> {
+    let path = folder("body-skins").join(name);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, text).unwrap();
+    let body = read_hydrostatic_body(&path)?;
+    Ok(body.curves_of_form(&[draught], &Conventions::default())?.0.rows.remove(0).displacement_volume)
+}
+
+#[test]
+fn a_side_that_is_missing_is_refused_and_shells_are_united() {
+    let hull = [[0.0, -5.0, 0.0], [60.0, 5.0, 6.0]];
+    let refused = volume_of("side.stl", &boxes(&[hull], Some((1, true))), 3.0).unwrap_err().to_string();
+    assert!(refused.contains("E354") && refused.contains("a hole of"), "{refused}");
+    let open = volume_of("deck.stl", &boxes(&[hull], Some((2, true))), 3.0).unwrap();
+    assert!((open - 1800.0).abs() < 1e-6, "{open}");
+    // Two halves that overlap, a bridge between two hulls, a tank on the bottom.
+    for (name, list, draught, expected) in [
+        ("halves.stl", vec![[[0.0, -5.0, 0.0], [60.0, 0.5, 6.0]], [[0.0, -0.5, 0.0], [60.0, 5.0, 6.0]]], 3.0, 1800.0),
+        (
+            "bridge.stl",
+            vec![
+                [[0.0, -8.0, 0.0], [60.0, -4.0, 6.0]],
+                [[0.0, 4.0, 0.0], [60.0, 8.0, 6.0]],
+                [[10.0, -6.0, 4.0], [50.0, 6.0, 6.0]],
+            ],
+            5.0,
+            2.0 * 60.0 * 4.0 * 5.0 + 40.0 * 8.0,
+        ),
+        ("tank.stl", vec![hull, [[10.0, -2.0, 0.0], [30.0, 2.0, 2.0]]], 3.0, 1800.0),
+    ] {
+        let found = volume_of(name, &boxes(&list, None), draught).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!((found - expected).abs() < 3e-4 * expected, "{name}: {found} for {expected}");
+    }
+    // Off the centreplane, and a column, z is up.
+    for (name, list) in
+        [("off.stl", [[0.0, -4.3, 0.0], [60.0, 5.7, 6.0]]), ("column.stl", [[0.0, -2.0, 0.0], [4.0, 2.0, 40.0]])]
+    {
+        let [low, high] = list;
+        let found = volume_of(name, &boxes(&[list], None), 3.0).unwrap();
+        let expected = (high[0] - low[0]) * (high[1] - low[1]) * 3.0;
+        assert!((found - expected).abs() < 1e-6 * expected, "{name}: {found} for {expected}");
+    }
+    let feet = fs::read_to_string(case("box-y-4-to-6.gdf")).unwrap();
+    let (metres, feet) = (volume_of("a.gdf", &feet, -0.5).unwrap(), {
+        let lines: Vec<String> = feet
+            .lines()
+            .enumerate()
+            .map(
+                |(k, line)| {
+                    if k == 1 { line.replace("9.80665", "32.174").replace("9.81", "32.174") } else { line.to_owned() }
+                },
+            )
+            .collect();
+        volume_of("b.gdf", &lines.join("\n"), -0.5 * 0.3048).unwrap()
+    });
+    assert!((feet / metres - 0.3048f64.powi(3)).abs() < 1e-9, "{feet} {metres}");
 }
 
 #[test]
 fn shells_inside_add_nothing() {
-    for (name, count) in [("bulkheads.stl", "4 triangles"), ("tank-inside.stl", "12 triangles")] {
+    for (name, what) in [
+        ("bulkheads.stl", "4 triangles of open sheets left out"),
+        ("tank-inside.stl", "12 triangles of shells inside the others left out"),
+    ] {
         assert!((row(name, 3.0).unwrap().displacement_volume / 1800.0 - 1.0).abs() < 1e-9, "{name}");
         let output = program(&["hydro", &case(name).display().to_string(), "--draughts", "3"]);
-        let warning = format!("{count} of shells inside the others left out");
-        assert!(output.status.success() && stderr(&output).contains(&warning), "{name}: {}", stderr(&output));
+        assert!(output.status.success() && stderr(&output).contains(what), "{name}: {}", stderr(&output));
     }
 }
 

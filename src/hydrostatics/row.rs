@@ -119,8 +119,8 @@ const USUAL_ENTRANCE: std::ops::RangeInclusive<f64> = 3.0..=70.0;
 /// Least initial metacentric height of the IS Code 2008 \[m\].
 pub const LEAST_GM: f64 = 0.15;
 
-/// Relative error of a quantity beyond which it is none of rounding.
-const ROUNDING: f64 = 1e-6;
+/// Relative error of a quantity beyond which it is none of rounding, nor of the skin of a union of shells.
+const ROUNDING: f64 = 1e-4;
 
 impl Hydrostatics {
     /// What no body within the box from `least` to `greatest` (x, y, z) \[m\] has at this draught, in words: a volume or an

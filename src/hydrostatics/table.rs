@@ -232,7 +232,8 @@ pub(super) fn row(
         lateral_area: body.lateral,
         lateral_centre_x: over(body.lateral_x, body.lateral),
         lateral_centre_z: over(body.lateral_z, body.lateral),
-        transom_area: body.transom,
+        // Rounding makes an end that is closed a little negative.
+        transom_area: body.transom.max(0.0) + 0.0,
         transverse_centre: None,
         heel: None,
         remark: None,

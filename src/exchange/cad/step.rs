@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 mod faces;
 mod geometry;
 mod read;
+mod unit;
 
 pub(in super::super) use read::{is_step, read_step};
 

@@ -16,7 +16,7 @@ pub(super) use glb_read::{is_glb, read_glb};
 pub use nemoh::write_nemoh;
 pub use obj::write_obj;
 pub(super) use obj::{is_obj, read_obj};
-pub(super) use panels_read::{PanelBody, is_nemoh, read_gdf, read_nemoh, read_pnl};
+pub(super) use panels_read::{PanelBody, is_gdf, is_nemoh, read_gdf, read_nemoh, read_pnl};
 pub use pnl::write_pnl;
 pub(super) use stl::{is_stl, read_stl};
 pub use stl::{write_stl, write_stl_ascii};

@@ -2,6 +2,7 @@
 //! last one when negative; `a/b/c` means the vertex a); faces of more corners become fans of triangles, everything else
 //! is passed over.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use super::super::fault::{Faults, RecordFault};
@@ -27,7 +28,20 @@ pub(in super::super) fn read_obj(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
     let mut faults = Faults::default();
     let mut vertices: Vec<[f64; 3]> = Vec::new();
     let mut corners: Vec<[[f64; 3]; 3]> = Vec::new();
+    // A line that ends with a backslash goes on in the next.
+    let mut joined: Vec<(usize, Cow<'_, str>)> = Vec::new();
+    let mut goes_on = false;
     for (k, line) in text.lines().enumerate() {
+        let part = line.trim_end().strip_suffix('\\');
+        let own = part.unwrap_or(line);
+        match joined.last_mut().filter(|_| goes_on) {
+            Some((_, begun)) => *begun = Cow::Owned(format!("{begun} {own}")),
+            None => joined.push((k, Cow::Borrowed(own))),
+        }
+        goes_on = part.is_some();
+    }
+    for (k, line) in &joined {
+        let (k, line) = (*k, line.as_ref());
         let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => {

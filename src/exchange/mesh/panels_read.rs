@@ -6,6 +6,9 @@ use super::super::fault::{Faults, LARGEST, RecordFault};
 use super::MOST_TRIANGLES;
 use crate::hull::TriangleMesh;
 
+/// The acceleration of gravity in feet [ft/s^2].
+const FEET: std::ops::RangeInclusive<f64> = 31.5..=32.8;
+
 /// A body that reaches further to both sides, over its breadth, is none of which one side is given.
 const BOTH_SIDES: f64 = 1e-2;
 
@@ -94,6 +97,8 @@ pub(in super::super) struct PanelBody {
     pub mesh: TriangleMesh,
     /// Whether y = 0 is a plane of symmetry: one side is given.
     pub is_half: bool,
+    /// Metres in the unit of the file.
+    pub unit: f64,
 }
 
 /// The body of corners and the planes of symmetry, x = 0 and y = 0.
@@ -112,7 +117,7 @@ fn body(
         let message = format!("y = 0 is a plane of symmetry, and panels are on both sides: y from {below} to {above}");
         faults.add(None, "", message);
     }
-    faults.or(|| PanelBody { mesh, is_half: across })
+    faults.or(|| PanelBody { mesh, is_half: across, unit: 1.0 })
 }
 
 fn too_many(count: usize, faults: &mut Faults) -> bool {
@@ -131,11 +136,14 @@ pub(in super::super) fn read_gdf(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFa
     let text = String::from_utf8_lossy(bytes);
     let mut words = Words::of(&text, 1);
     let mut corners = Vec::new();
-    let mut planes = [false; 2];
+    let (mut planes, mut unit) = ([false; 2], 1.0);
     let mut header = |words: &mut Words<'_>| -> Option<usize> {
         for what in [["ULEN", "GRAV"], ["ISX", "ISY"]] {
             let line = words.line();
             let numbers = [words.number(what[0])?, words.number(what[1])?];
+            if what[1] == "GRAV" && FEET.contains(&numbers[1]) {
+                unit = 0.3048;
+            }
             planes = numbers.map(is_one);
             // Names may follow the numbers.
             words.next_line(line);
@@ -156,7 +164,26 @@ pub(in super::super) fn read_gdf(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFa
             corners.extend(triangles(panel));
         }
     }
-    body(words.faults, corners, planes)
+    body(words.faults, corners, planes).map(|body| PanelBody { unit, ..body })
+}
+
+/// Whether this is the beginning of panels of WAMIT: a title, then two numbers, the second an acceleration of gravity, then
+/// two flags, then a count.
+pub(in super::super) fn is_gdf(bytes: &[u8]) -> bool {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]).into_owned();
+    let mut lines = start
+        .lines()
+        .skip(1)
+        .map(|line| line.split_whitespace().map_while(|word| word.parse::<f64>().ok()).take(2).collect::<Vec<f64>>());
+    let Some(((first, second), third)) = lines.next().zip(lines.next()).zip(lines.next()) else { return false };
+    let is_gravity = |g: f64| (9.7..=9.9).contains(&g) || FEET.contains(&g);
+    let is_flag = |n: &f64| n.abs() < f64::EPSILON || (n - 1.0).abs() < f64::EPSILON;
+    first.len() == 2
+        && first[0] > 0.0
+        && is_gravity(first[1])
+        && second.len() == 2
+        && second.iter().all(is_flag)
+        && third.first().is_some_and(|count| *count >= 1.0 && count.fract() <= 0.0)
 }
 
 /// A panel by the numbers of its nodes, from 1; none, with a fault, when there is no such node.

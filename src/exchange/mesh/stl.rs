@@ -76,7 +76,9 @@ fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<RecordFau
 fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
-    if !is_solid(&text) {
+    // Bytes of a binary file after a header that begins with `solid`.
+    let is_binary = bytes.iter().take(1000).any(|byte| *byte == 0 || *byte > 0x7f);
+    if !is_solid(&text) || is_binary {
         let count = stated_count(bytes).unwrap_or(0);
         let wanted = HEADER + RECORD * count;
         faults.add(None, "", format!("{} bytes; a binary file of {count} triangles has {wanted}", bytes.len()));

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
 use super::super::fault::RecordFault;
 use super::super::mesh::{
-    PanelBody, is_glb, is_nemoh, is_obj, is_stl, read_gdf, read_glb, read_nemoh, read_obj, read_pnl, read_stl,
+    PanelBody, is_gdf, is_glb, is_nemoh, is_obj, is_stl, read_gdf, read_glb, read_nemoh, read_obj, read_pnl, read_stl,
 };
 use super::super::subdivision::{SubdivisionProject, is_fbm, is_ftm, read_fbm, read_ftm};
 use super::outline::{Deck, point, take_off_deck};
@@ -58,6 +58,9 @@ pub struct ReadBody {
     sections: usize,
 }
 
+/// What the volume between sections leaves that of their body by, over it, before it is a warning.
+const SECTION_VOLUME: f64 = 1e-2;
+
 /// What stands in a file.
 enum Shape {
     /// With what their format says.
@@ -69,8 +72,8 @@ enum Shape {
 }
 
 impl Shape {
-    fn of_panels(PanelBody { mesh, is_half }: PanelBody) -> Self {
-        Self::Triangles(mesh, Given { axes: Some(AS_WRITTEN), half: Some(is_half), ..Given::plain(1.0) })
+    fn of_panels(PanelBody { mesh, is_half, unit }: PanelBody) -> Self {
+        Self::Triangles(mesh, Given { axes: Some(AS_WRITTEN), half: Some(is_half), ..Given::plain(unit) })
     }
 }
 
@@ -91,8 +94,8 @@ fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, BodyReader)> {
     } else if ends(&[".stl"]) || is_stl(bytes) {
         Some(("STL", |bytes| read_stl(bytes).map(|mesh| Shape::Triangles(mesh, Given::plain(1.0)))))
     } else if is_glb(bytes) || ends(&[".glb"]) {
-        Some(("GLB", |bytes| read_glb(bytes).map(|mesh| Shape::Triangles(mesh, Given::plain(1.0)))))
-    } else if ends(&[".gdf"]) {
+        Some(("GLB", |bytes| read_glb(bytes).map(|mesh| Shape::Triangles(mesh, Given { up: 1, ..Given::plain(1.0) }))))
+    } else if ends(&[".gdf"]) || is_gdf(bytes) {
         Some(("GDF", |bytes| read_gdf(bytes).map(Shape::of_panels)))
     } else if ends(&[".pnl"]) {
         Some(("PNL", |bytes| read_pnl(bytes).map(Shape::of_panels)))
@@ -136,6 +139,11 @@ pub fn read_body<'a>(
         Shape::Triangles(mesh, given) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
+            if given.unit < 1.0 && settings.units.is_none() {
+                let message =
+                    "the acceleration of gravity in the file is that in feet: coordinates are taken as feet".to_owned();
+                problems.warning("W320", FilePosition::FILE, message, "Say --input-unit m where they are metres");
+            }
             framed(vec![mesh], &settings, &given, &mut problems)
         }
         Shape::Net(SubdivisionProject { name, stated, unit, net }) => {
@@ -265,6 +273,7 @@ impl ReadBody {
             let message = format!("{aside} loops that do not reach the centreplane are left out");
             problems.warning("W332", FilePosition::FILE, message, "");
         }
+        self.weigh(&sections, &mut problems);
         let Self { name, stated, notes, .. } = self;
         let body = Body { name, stated, sections, origin: XOrigin::AfterPerpendicular, unit: 1.0 };
         problems.decimals = 6;
@@ -276,6 +285,27 @@ impl ReadBody {
                 Ok(ReadTable { table: read.table, notes })
             }
             Err(list) => Err(list.into_iter().map(named).collect()),
+        }
+    }
+
+    /// Compares the volume between the sections with that of the body, where this is closed.
+    fn weigh(&self, sections: &[Section], problems: &mut Problems) {
+        let Some(mesh) = self.meshes.last().filter(|mesh| mesh.open_edges().is_empty()) else { return };
+        let area = |section: &Section| {
+            let chords = section.branches.iter().flat_map(|line| line.windows(2));
+            [section.x, chords.map(|pair| (pair[1].z - pair[0].z) * (pair[0].y + pair[1].y)).sum()]
+        };
+        let areas: Vec<[f64; 2]> = sections.iter().map(area).collect();
+        let found: f64 = areas.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum();
+        let volume = mesh.report().volume;
+        let off = found / volume - 1.0;
+        if off.abs() > SECTION_VOLUME {
+            let message = format!(
+                "the sections of the body enclose {found:.4e} m3, and the body {volume:.4e} m3 ({:+.1} %): sections from keel to deck \
+                 are not its whole form",
+                100.0 * off
+            );
+            problems.warning("W340", FilePosition::FILE, message, "Take the figures of the body itself from `hydro`");
         }
     }
 

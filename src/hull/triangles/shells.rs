@@ -9,16 +9,19 @@
 //! tan(omega / 2) = a.(b x c) / (|a||b||c| + a.b |c| + b.c |a| + c.a |b|)
 //! ```
 
-use super::{TriangleMesh, open_edges};
+use super::{TriangleMesh, open_edges, triangle_area};
+
+mod union;
+
 use crate::spline::{cross, dot, length, minus};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 /// The winding number from which a point is inside, between that of the skin and that of the inside.
 const INSIDE: f64 = 0.75;
 
 /// Shells of a mesh beyond which it is a heap of loose patches.
-const SHELLS: usize = 64;
+const SHELLS: usize = 4096;
 
 /// Triangles of a shell at which it is looked at, at most and at least.
 const SAMPLES: [usize; 2] = [24, 4];
@@ -31,9 +34,28 @@ const ANGLES: usize = 20_000_000;
 pub struct InnerShells {
     /// Triangles of shells inside, which add nothing.
     pub inside: usize,
-    /// Triangles of shells that reach into others; what they share counts twice.
+    /// Triangles of shells that reach into others.
     pub crossing: usize,
+    /// Whether these are cut to the skin of the union. Otherwise what they share counts twice.
+    pub united: bool,
+    /// Shells, where there are too many to be looked at.
+    pub unseen: usize,
 }
+
+/// What an open sheet encloses with its openings covered, over the power 3/2 of its area.
+const FLAT: f64 = 1e-3;
+
+/// Part of the edges of a sheet that may lie in an opening of the other shells.
+const CLOSING: f64 = 0.5;
+
+/// Openings longer than this part of the body, from lower than this part of its height on, and of more than this part of its
+/// area, are no decks.
+const LONG: f64 = 0.2;
+const LOW: f64 = 0.25;
+const WIDE: f64 = 0.02;
+
+/// Vertices nearer than this part of the size of the body are one.
+const ONE: f64 = 1e-4;
 
 impl TriangleMesh {
     /// The mesh without the shells inside others, and what was found. The triangles face outward.
@@ -42,18 +64,25 @@ impl TriangleMesh {
         let shells = self.shells();
         let mut found = InnerShells::default();
         if !(2..=SHELLS).contains(&shells.len()) {
+            found.unseen = if shells.len() > SHELLS { shells.len() } else { 0 };
             return (self, found);
         }
         let closed: Vec<Vec<[[f64; 3]; 3]>> = shells.iter().map(|shell| self.covered(shell)).collect();
         let [most, least] = SAMPLES;
-        let samples = (ANGLES / (self.triangles.len() * shells.len())).clamp(least, most);
+        let samples = (ANGLES / (self.triangles.len() * shells.len().min(64))).clamp(least, most);
+        let bounds: Vec<[[f64; 3]; 2]> = closed.iter().map(|shell| union::bounds(shell)).collect();
         let mut inside = vec![false; self.triangles.len()];
         for (k, shell) in shells.iter().enumerate() {
-            let others = || closed.iter().enumerate().filter(|(other, _)| *other != k).flat_map(|(_, shell)| shell);
             let looked_at = shell.iter().step_by(shell.len().div_ceil(samples));
             let is_inside = |&t: &usize| {
                 let middle = mean(self.triangles[t].into_iter().map(|v| self.vertices[v]), 3);
-                others().map(|corners| solid_angle(corners.map(|corner| minus(corner, middle)))).sum::<f64>()
+                // About a point outside its bounds a closed shell does not wind.
+                let holds = |other: &usize| {
+                    let [low, high] = bounds[*other];
+                    *other != k && (0..3).all(|axis| (low[axis]..=high[axis]).contains(&middle[axis]))
+                };
+                let others = (0..closed.len()).filter(holds).flat_map(|other| &closed[other]);
+                others.map(|corners| solid_angle(corners.map(|corner| minus(corner, middle)))).sum::<f64>()
                     > INSIDE * 4.0 * PI
             };
             let looked: Vec<bool> = looked_at.map(is_inside).collect();
@@ -64,9 +93,100 @@ impl TriangleMesh {
                 found.crossing += shell.len();
             }
         }
+        if found.crossing > 0
+            && let Some(united) = union::united(&self, &shells, &closed)
+        {
+            found.united = true;
+            return (united, found);
+        }
         let mut kept = inside.iter().map(|inside| !inside);
         self.triangles.retain(|_| kept.next().unwrap_or(true));
         (self, found)
+    }
+
+    /// The mesh with one of the triangles that have the same three vertices, and how many are left out.
+    #[must_use]
+    pub fn without_doubles(mut self) -> (Self, usize) {
+        let before = self.triangles.len();
+        let mut known = HashSet::with_capacity(before);
+        self.triangles.retain(|triangle| {
+            let mut sorted = *triangle;
+            sorted.sort_unstable();
+            known.insert(sorted)
+        });
+        let left_out = before - self.triangles.len();
+        (self, left_out)
+    }
+
+    /// The mesh without open sheets beside its body, such as bilge keels: flat shells whose edges do not lie in the openings of
+    /// the others; and how many triangles they have.
+    #[must_use]
+    pub fn without_sheets(mut self) -> (Self, usize) {
+        let shells = self.shells();
+        let Some(size) = self.bounds().map(|[least, greatest]| length(minus(greatest, least))) else {
+            return (self, 0);
+        };
+        let open: Vec<Vec<[usize; 2]>> =
+            shells.iter().map(|shell| open_edges(shell.iter().map(|&t| self.triangles[t]))).collect();
+        let is_flat = |k: usize| {
+            let corners = self.covered(&shells[k]);
+            let enclosed: f64 = corners.iter().map(|[a, b, c]| dot(*a, cross(*b, *c)) / 6.0).sum();
+            let area: f64 = shells[k].iter().map(|&t| triangle_area(self.triangles[t].map(|v| self.vertices[v]))).sum();
+            enclosed.abs() < FLAT * area.powf(1.5)
+        };
+        let sheets: Vec<usize> = (0..shells.len()).filter(|&k| !open[k].is_empty() && is_flat(k)).collect();
+        if sheets.is_empty() || sheets.len() == shells.len() {
+            return (self, 0);
+        }
+        // Places of the vertices of openings of the other shells.
+        let key = |vertex: usize| self.vertices[vertex].map(|c| (c / (ONE * size)).round() as i64);
+        let is_sheet = |k: &usize| sheets.contains(k);
+        let others = (0..shells.len()).filter(|k| !is_sheet(k)).flat_map(|k| &open[k]).flatten();
+        let openings: HashSet<[i64; 3]> = others.map(|&vertex| key(vertex)).collect();
+        let mut left_out = vec![false; self.triangles.len()];
+        for &k in &sheets {
+            let closing =
+                open[k].iter().filter(|edge| edge.iter().all(|&vertex| openings.contains(&key(vertex)))).count();
+            if (closing as f64) < CLOSING * open[k].len() as f64 {
+                shells[k].iter().for_each(|&t| left_out[t] = true);
+            }
+        }
+        let count = left_out.iter().filter(|out| **out).count();
+        let mut out = left_out.into_iter();
+        self.triangles.retain(|_| !out.next().unwrap_or(false));
+        let kept: Vec<[[f64; 3]; 3]> = self.corners().collect();
+        (if count > 0 { Self::from_corners(kept.into_iter()) } else { self }, count)
+    }
+
+    /// The greatest opening of the skin along the ship and below the deck: its area over that of the skin, and its least and
+    /// greatest corner \[m\]. Openings in planes x = constant are transoms and bows, those at the centreplane are seams.
+    #[must_use]
+    pub fn hole(&self) -> Option<(f64, [[f64; 3]; 2])> {
+        let [least, greatest] = self.bounds()?;
+        let extent = minus(greatest, least);
+        let open = self.open_edges();
+        let mut at = HashMap::new();
+        let ends = open.iter().enumerate().flat_map(|(k, edge)| edge.map(|vertex| (k, vertex)));
+        let pairs: Vec<[usize; 2]> = ends.map(|(k, vertex)| [k, *at.entry(vertex).or_insert(k)]).collect();
+        let skin: f64 = self.corners().map(triangle_area).sum();
+        let hole = |edges: &Vec<usize>| {
+            let points = || edges.iter().flat_map(|&k| open[k]).map(|vertex| self.vertices[vertex]);
+            let first = points().next()?;
+            let fold = |pick: fn(f64, f64) -> f64| {
+                points().fold(first, |ends, point| [0, 1, 2].map(|k| pick(ends[k], point[k])))
+            };
+            let bounds = [fold(f64::min), fold(f64::max)];
+            let middle = mean(edges.iter().map(|&k| self.vertices[open[k][0]]), edges.len());
+            let area: f64 = edges
+                .iter()
+                .map(|&k| triangle_area([self.vertices[open[k][0]], self.vertices[open[k][1]], middle]))
+                .sum();
+            let is_long = bounds[1][0] - bounds[0][0] > LONG * extent[0];
+            let is_low = bounds[0][2] - least[2] < LOW * extent[2];
+            (is_long && is_low && area > WIDE * skin).then_some((area / skin, bounds))
+        };
+        let holes = connected(open.len(), pairs.into_iter());
+        holes.iter().filter_map(hole).max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Triangles that hang together across edges of two.
@@ -125,7 +245,7 @@ fn connected(count: usize, pairs: impl Iterator<Item = [usize; 2]>) -> Vec<Vec<u
 }
 
 /// The solid angle of a triangle seen from the origin; 0 where that is in its plane.
-fn solid_angle([a, b, c]: [[f64; 3]; 3]) -> f64 {
+pub(super) fn solid_angle([a, b, c]: [[f64; 3]; 3]) -> f64 {
     let [la, lb, lc] = [a, b, c].map(length);
     let volume = dot(a, cross(b, c));
     if volume.abs() <= 1e-12 * la * lb * lc {
@@ -157,7 +277,44 @@ mod tests {
     #[test]
     fn shells_inside_are_left_out() {
         let (mesh, found) = with(&[([1.0, 0.0, 0.5], 0.25), ([2.5, 0.3, 1.0], 0.1)]).without_inner_shells();
-        assert_eq!((mesh.triangles.len(), found), (12, InnerShells { inside: 24, crossing: 0 }));
+        assert_eq!((mesh.triangles.len(), found), (12, InnerShells { inside: 24, ..InnerShells::default() }));
+    }
+
+    #[test]
+    fn triangles_given_twice_are_one() {
+        let twice: Vec<_> = brick().corners().chain(brick().corners().map(|[a, b, c]| [a, c, b])).collect();
+        let (mesh, left_out) = TriangleMesh::from_corners(twice.into_iter()).without_doubles();
+        assert_eq!((mesh.triangles, left_out), (brick().triangles, 12));
+    }
+
+    #[test]
+    fn sheets_beside_a_body_are_left_out_and_lids_are_not() {
+        let (low, high) = ([0.5, 1.5, 0.5], [3.0, 1.5, 0.5]);
+        let keel = [[low, high, [3.0, 2.0, 0.2]], [low, [3.0, 2.0, 0.2], [0.5, 2.0, 0.2]]];
+        let with: Vec<_> = brick().corners().chain(keel).collect();
+        let (mesh, left_out) = TriangleMesh::from_corners(with.into_iter()).without_sheets();
+        assert_eq!((mesh.triangles.len(), left_out), (12, 2));
+        // A lid with vertices of its own, a little off.
+        let top = |t: &[[f64; 3]; 3]| t.iter().all(|corner| corner[2] > 1.9);
+        let body = brick();
+        let lid = body.corners().filter(top).map(|t| t.map(|[x, y, z]| [x, y, z + 1e-6]));
+        let parts: Vec<_> = body.corners().filter(|t| !top(t)).chain(lid).collect();
+        let parts = TriangleMesh::from_corners(parts.into_iter());
+        assert_eq!(parts.clone().without_sheets(), (parts, 0));
+    }
+
+    #[test]
+    fn a_side_that_is_missing_is_a_hole_and_a_deck_is_none() {
+        let without = |axis: usize, greatest: bool| {
+            let [least, most] = brick().bounds().unwrap();
+            let value = if greatest { most[axis] } else { least[axis] };
+            let kept: Vec<_> = brick().corners().filter(|t| t.iter().any(|c| (c[axis] - value).abs() > 1e-9)).collect();
+            TriangleMesh::from_corners(kept.into_iter()).hole().map(|(share, _)| share > 0.1)
+        };
+        assert_eq!(
+            [without(1, true), without(2, false), without(2, true), without(0, true)],
+            [Some(true), Some(true), None, None]
+        );
     }
 
     #[test]
@@ -169,7 +326,11 @@ mod tests {
         // The two walls that they have in common are inside.
         for by in [[4.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]] {
             let (mesh, found) = with(&[(by, 1.0)]).without_inner_shells();
-            assert_eq!((mesh.triangles.len(), found), (20, InnerShells { inside: 4, crossing: 0 }), "{by:?}");
+            assert_eq!(
+                (mesh.triangles.len(), found),
+                (20, InnerShells { inside: 4, ..InnerShells::default() }),
+                "{by:?}"
+            );
         }
     }
 
@@ -177,7 +338,8 @@ mod tests {
     fn shells_that_reach_into_another_are_named() {
         // A skeg whose top is inside, and which has the middles of triangles of the bottom inside.
         let (mesh, found) = with(&[([1.0, 0.0, -0.8], 0.5)]).without_inner_shells();
-        assert_eq!((mesh.triangles.len(), found.inside, found.crossing), (24, 0, 24));
+        assert_eq!((found.inside, found.crossing, found.united), (0, 24, true));
+        assert!(mesh.triangles.len() > 24);
     }
 
     #[test]

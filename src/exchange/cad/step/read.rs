@@ -8,18 +8,6 @@ use super::super::surfaces::CadSurfaces;
 use super::faces::faces;
 use super::geometry::Geometry;
 
-/// Prefixes of the metre, and none.
-const PREFIXES: [(&str, f64); 8] = [
-    ("", 1.0),
-    (".MICRO.", 1e-6),
-    (".MILLI.", 1e-3),
-    (".CENTI.", 1e-2),
-    (".DECI.", 1e-1),
-    (".DECA.", 1e1),
-    (".HECTO.", 1e2),
-    (".KILO.", 1e3),
-];
-
 /// Surfaces that have no ends without a face.
 const OTHERS: [&str; 7] = [
     "CYLINDRICAL_SURFACE",
@@ -266,7 +254,7 @@ pub(in super::super::super) fn read_step(bytes: &[u8]) -> Result<CadSurfaces, Ve
             break;
         }
     }
-    let mut read = CadSurfaces { unit: unit(&instances, &mut faults), ..CadSurfaces::default() };
+    let mut read = CadSurfaces { unit: super::unit::of(&instances, &mut faults), ..CadSurfaces::default() };
     let radian = radian(&instances);
     let mut geometry = Geometry { instances: &instances, faults: &mut faults, radian, points: 0 };
     (read.body, read.unread) = faces(&mut geometry);
@@ -317,36 +305,6 @@ fn radian(instances: &BTreeMap<u64, Instance>) -> f64 {
         }
     };
     instances.values().filter(|i| i.part("PLANE_ANGLE_UNIT").is_some()).find_map(of).unwrap_or(1.0)
-}
-
-/// Metres in the length unit of a file; none where it states none, or one that is not known: a fault.
-fn unit(instances: &BTreeMap<u64, Instance>, faults: &mut Faults) -> Option<f64> {
-    let si = |instance: &Instance| match instance.part("SI_UNIT")?.first() {
-        Some(Value::Word(prefix)) => PREFIXES.iter().find(|(name, _)| name == prefix).map(|(_, metres)| *metres),
-        _ => None,
-    };
-    // A unit that is made of another one: its measure is typed, or a number alone.
-    let converted = |instance: &Instance| {
-        let [_, Value::Reference(measure)] = instance.part("CONVERSION_BASED_UNIT")? else { return None };
-        let [value, Value::Reference(of)] = instances.get(measure)?.part("LENGTH_MEASURE_WITH_UNIT")? else {
-            return None;
-        };
-        let number = match value {
-            Value::Typed(list) => list.first()?,
-            number => number,
-        };
-        let Value::Number(number) = number else { return None };
-        Some(number * si(instances.get(of)?)?)
-    };
-    let lengths = || instances.iter().filter(|(_, i)| i.part("LENGTH_UNIT").is_some());
-    let is_converted = |i: &Instance| i.part("CONVERSION_BASED_UNIT").is_some();
-    // It is the one that is used.
-    let (number, instance) = lengths().find(|(_, i)| is_converted(i)).or_else(|| lengths().next())?;
-    let found = if is_converted(instance) { converted(instance) } else { si(instance) };
-    if found.is_none() {
-        faults.add(Some(instance.line), &format!("#{number}"), "not a unit of length that is known".to_owned());
-    }
-    found
 }
 
 /// The numbers of a list.

@@ -8,13 +8,18 @@ use crate::units::counted;
 /// A body whose ends of an axis differ by less than this part of its size is symmetric about the zero of the axis.
 const SYMMETRIC: f64 = 1e-3;
 
-/// The middle of a body over its extent: up to the first athwartships, from the second on upwards, of one that is not quite
-/// symmetric.
+/// The middle of a body over its extent athwartships, at most, of one that is not quite symmetric.
 const NEARLY: f64 = 0.1;
-const NOT_NEARLY: f64 = 0.5;
 
 /// Corners of one side of a body this many times as far from the centreplane as its inner edge belong on it.
 const MOVED: f64 = 1.5;
+
+/// Bodies are rarely shorter or longer than this \[m\].
+const SHORT: f64 = 2.0;
+const LONG: f64 = 600.0;
+
+/// A vertical axis this many times as long as the others may be that of the length.
+const TALL: f64 = 1.0;
 
 /// Points nearer to the centreplane than this part of the size of the body are on it.
 const ON_CENTREPLANE: f64 = 1e-6;
@@ -25,6 +30,8 @@ pub(in super::super) struct Given {
     pub(in super::super) unit: f64,
     /// The axes, where the format has them.
     pub(in super::super) axes: Option<[(usize, f64); 3]>,
+    /// The axis that points up in files of this format, unless the body contradicts it.
+    pub(in super::super) up: usize,
     /// Whether one side is given, where the format says so.
     pub(in super::super) half: Option<bool>,
     /// Triangles over surfaces, each for itself.
@@ -34,7 +41,7 @@ pub(in super::super) struct Given {
 impl Given {
     /// A file that says nothing but its unit \[m\].
     pub(in super::super) fn plain(unit: f64) -> Self {
-        Self { unit, axes: None, half: None, surfaces: false }
+        Self { unit, axes: None, up: 2, half: None, surfaces: false }
     }
 
     /// Metres in what the coordinates of the file count, by the settings before the file.
@@ -65,7 +72,7 @@ impl Placement {
     ) -> Option<Self> {
         let BodyFrame { axes, up, x_origin, z_origin, .. } = settings.frame;
         let known = axes.or(if up.is_none() { given.axes } else { None });
-        let axes = known.or_else(|| found_axes(bounds, up, problems))?;
+        let axes = known.or_else(|| found_axes(bounds, up, given.up, problems))?;
         let unit = given.metres(settings);
         let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
         let origin = [x_origin, z_origin].map(|place| place.unwrap_or(0.0));
@@ -92,10 +99,18 @@ pub(in super::super) fn framed(
     let BodyFrame { x_origin, z_origin, .. } = settings.frame;
     let surfaces = given.surfaces;
     let place = |corner: [f64; 3]| placement.place(corner);
-    let mut half = None;
+    let (mut half, mut united) = (None, false);
     for (k, mesh) in meshes.iter_mut().enumerate() {
         let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
         *mesh = TriangleMesh::from_corners(corners.into_iter());
+        if !surfaces {
+            let (single, doubles) = std::mem::take(mesh).without_doubles();
+            *mesh = single;
+            if doubles > 0 && k == 0 {
+                let message = format!("{} given twice: counted once", counted(doubles, "triangle"));
+                problems.warning("W320", FilePosition::FILE, message, "");
+            }
+        }
         if k == 0 {
             half = one_side(mesh, settings.frame.half, given.half, problems);
         }
@@ -111,7 +126,9 @@ pub(in super::super) fn framed(
             problems.note(format!("{} turned outward", counted(turned, "triangle")));
         }
         if !surfaces {
-            *mesh = without_inner(mesh, if k == 0 { Some(&mut *problems) } else { None });
+            *mesh = without_sheets(mesh, if k == 0 { Some(&mut *problems) } else { None });
+            let (single, is_united) = without_inner(mesh, if k == 0 { Some(&mut *problems) } else { None });
+            (*mesh, united) = (single, is_united);
         }
     }
     let Some([least, greatest]) = meshes[0].bounds() else { return meshes };
@@ -122,9 +139,13 @@ pub(in super::super) fn framed(
             "E351",
             FilePosition::FILE,
             message,
-            "Say units or scale in a TOML file of the same name beside it",
+            "Say --input-unit, or units or scale in a TOML file of the same name beside it",
         );
     }
+    size(length, given, settings, problems);
+    stated([length, greatest[1] - least[1]], settings, problems);
+    // Panels count from the free surface, and are open there.
+    let at_surface = given.axes.is_some() && given.half.is_some();
     if x_origin.is_none() && least[0].abs() > 0.2 * length {
         meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[0] -= least[0]);
         let message = format!(
@@ -135,15 +156,35 @@ pub(in super::super) fn framed(
         problems.warning("W320", FilePosition::FILE, message, "");
     }
     let depth = greatest[2] - least[2];
-    if z_origin.is_none() && least[2].abs() > 0.2 * depth {
+    if z_origin.is_none() && !at_surface && least[2].abs() > 0.2 * depth {
         let message = format!(
             "the lowest point is {:.3} m from z = 0 of the file, from where draughts count; z_origin in the TOML beside it moves it",
             least[2]
         );
         problems.warning("W320", FilePosition::FILE, message, "");
     }
-    let open = if surfaces { Vec::new() } else { meshes[0].open_edges() };
-    if !open.is_empty() {
+    // The pieces of a union are no conforming mesh.
+    let open = if surfaces || united { Vec::new() } else { meshes[0].open_edges() };
+    if !surfaces
+        && !united
+        && !at_surface
+        && let Some((share, [low, high])) = meshes[0].hole()
+    {
+        let message = format!(
+            "a hole of {:.0} % of the skin, from ({:.3}, {:.3}, {:.3}) to ({:.3}, {:.3}, {:.3}) m: a side or the bottom is missing",
+            100.0 * share,
+            low[0],
+            low[1],
+            low[2],
+            high[0],
+            high[1],
+            high[2]
+        );
+        let remedy = "Close the body: deck, transom and flat bow alone may be missing";
+        problems.error("E354", FilePosition::FILE, message, remedy);
+    }
+    let is_level = |edge: &[usize; 2]| edge.iter().all(|&k| meshes[0].vertices[k][2].abs() <= ON_CENTREPLANE * length);
+    if !open.is_empty() && !(at_surface && open.iter().all(is_level)) {
         let lowest = open.iter().flatten().map(|&k| meshes[0].vertices[k][2]).fold(f64::INFINITY, f64::min);
         let message = format!(
             "{} open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
@@ -154,10 +195,49 @@ pub(in super::super) fn framed(
     meshes
 }
 
-/// A mesh without the shells inside others; of nested meshes the first alone has problems to say.
-fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> TriangleMesh {
-    let (mesh, InnerShells { inside, crossing }) = std::mem::take(mesh).without_inner_shells();
-    let Some(problems) = problems else { return mesh };
+/// Says of bodies that are very short or very long for a ship that their unit may be another.
+fn size(length: f64, given: &Given, settings: &Settings, problems: &mut Problems) {
+    let is_stated = settings.units.is_some() || settings.frame.scale.is_some();
+    if is_stated || (SHORT..=LONG).contains(&length) || !(0.01..=1e4).contains(&length) {
+        return;
+    }
+    let message = format!("the body is {length:.3} m long, with {} m for the unit of the file", given.unit);
+    let remedy = "Say --input-unit (units in the TOML beside it) where the unit is another";
+    problems.warning("W320", FilePosition::FILE, message, remedy);
+}
+
+/// Dimensions that contradict the length and breadth of the body \[m\].
+fn stated([length, breadth]: [f64; 2], settings: &Settings, problems: &mut Problems) {
+    if let Some(stated) = settings.stated.breadth.filter(|stated| (stated / breadth - 1.0).abs() > 0.05) {
+        let message = format!("B is stated as {stated} m, and the body is {breadth:.3} m broad");
+        problems.warning("W309", FilePosition::FILE, message, "Correct B, or the unit of the body");
+    }
+    if let Some(stated) =
+        settings.stated.length_between_perpendiculars.filter(|l| *l > 1.5 * length || length > 1.5 * *l)
+    {
+        let message = format!("L_PP is stated as {stated} m, and the body is {length:.3} m long");
+        problems.warning("W310", FilePosition::FILE, message, "Correct L_PP, or the unit of the body");
+    }
+}
+
+/// A mesh without open sheets beside its body; of several meshes the first alone has problems to say.
+fn without_sheets(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> TriangleMesh {
+    let (mesh, sheets) = std::mem::take(mesh).without_sheets();
+    if let Some(problems) = problems.filter(|_| sheets > 0) {
+        let message = format!(
+            "{} of open sheets left out: bulkheads, keels and rudders as sheets have no volume",
+            counted(sheets, "triangle")
+        );
+        problems.warning("W320", FilePosition::FILE, message, "");
+    }
+    mesh
+}
+
+/// A mesh without the shells inside others, and whether it is cut to the skin of a union; of nested meshes the first alone has
+/// problems to say.
+fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> (TriangleMesh, bool) {
+    let (mesh, InnerShells { inside, crossing, united, unseen }) = std::mem::take(mesh).without_inner_shells();
+    let Some(problems) = problems else { return (mesh, united) };
     if inside > 0 {
         let message = format!(
             "{} of shells inside the others left out: tanks, decks and bulkheads add nothing to the body",
@@ -165,14 +245,25 @@ fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> Tr
         );
         problems.warning("W320", FilePosition::FILE, message, "");
     }
-    if crossing > 0 {
+    if unseen > 0 {
         let message = format!(
-            "shells of {} reach into others; what they share counts twice in volume and areas",
+            "{}: none is looked at for tanks inside others or for crossings, which add to the volume",
+            counted(unseen, "shell")
+        );
+        problems.warning("W351", FilePosition::FILE, message, "Unite the parts to one skin");
+    }
+    if crossing > 0 && united {
+        let message =
+            format!("shells of {} reach into others: what they share counts once", counted(crossing, "triangle"));
+        problems.warning("W351", FilePosition::FILE, message, "Unite the shells to one skin");
+    } else if crossing > 0 {
+        let message = format!(
+            "shells of {} reach into others, and there are too many for their union: what they share would count twice",
             counted(crossing, "triangle")
         );
-        problems.warning("W351", FilePosition::FILE, message, "Unite the shells to one skin");
+        problems.error("E354", FilePosition::FILE, message, "Unite the shells to one skin");
     }
-    mesh
+    (mesh, united)
 }
 
 /// Of a body of which one side is given, within how much of the centreplane its corners belong on it \[m\]; none of a
@@ -226,65 +317,74 @@ fn without_top(mesh: &TriangleMesh) -> TriangleMesh {
 }
 
 /// The axes of a body by its extents; none, with a problem, when they cannot be told.
+///
+/// The axis that is `usual`ly up in the format is so. It is not where the body is symmetric along it and nowhere else, or where
+/// it is the longest and the body is symmetric along one of the others alone.
 fn found_axes(
     [least, greatest]: [[f64; 3]; 2],
     up: Option<(usize, f64)>,
+    usual: usize,
     problems: &mut Problems,
 ) -> Option<[(usize, f64); 3]> {
     let extent = |k: usize| greatest[k] - least[k];
-    if let Some((up, sign)) = up {
+    // Right-handed: port is up x forward.
+    let with_up = |(up, sign): (usize, f64)| {
         let (a, b) = ((up + 1) % 3, (up + 2) % 3);
-        // Right-handed: port is up x forward.
-        return Some(if extent(a) >= extent(b) {
-            [(a, 1.0), (b, sign), (up, sign)]
-        } else {
-            [(b, 1.0), (a, -sign), (up, sign)]
-        });
-    }
-    let long = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b)).then(b.cmp(&a)))?;
-    let size = extent(long);
-    let across = |k: usize| {
-        let near = |value: f64| value.abs() <= SYMMETRIC * size;
-        near(least[k] + greatest[k]) || near(least[k]) || near(greatest[k])
+        if extent(a) >= extent(b) { [(a, 1.0), (b, sign), (up, sign)] } else { [(b, 1.0), (a, -sign), (up, sign)] }
     };
+    if let Some(up) = up {
+        return Some(with_up(up));
+    }
+    let size = (0..3).map(extent).fold(0.0, f64::max);
     let symmetric = |k: usize| (least[k] + greatest[k]).abs() <= SYMMETRIC * size;
     // A body whose centreline is a little off, or whose sides differ, is nearer to symmetry across than up.
     let off = |k: usize| (least[k] + greatest[k]).abs() / extent(k).max(f64::MIN_POSITIVE);
-    let is_nearly = |[across, up]: [usize; 2]| off(across) <= NEARLY && off(up) >= NOT_NEARLY;
     let names = ["x", "y", "z"];
-    // The right-handed frame in which the longest axis is forward and the third is up.
-    let (y, z) = ((long + 1) % 3, (long + 2) % 3);
-    let frame = match [y, z].map(|k| (symmetric(k), across(k))) {
-        [(true, _), (false, _)] => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        [(false, _), (true, _)] => [(long, 1.0), (z, -1.0), (y, 1.0)],
-        [(false, true), (false, false)] if !is_nearly([z, y]) => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        [(false, false), (false, true)] if !is_nearly([y, z]) => [(long, 1.0), (z, -1.0), (y, 1.0)],
-        _ if is_nearly([y, z]) => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        _ if is_nearly([z, y]) => [(long, 1.0), (z, -1.0), (y, 1.0)],
-        // Both may be: what is usual.
-        [(a, true), (b, true)] if a == b => [(long, 1.0), (y, 1.0), (z, 1.0)],
-        _ => {
+    let written = with_up((usual, 1.0));
+    let others = [(usual + 1) % 3, (usual + 2) % 3];
+    let is_tall = others.iter().all(|&k| extent(usual) > TALL * extent(k));
+    let frame = match others.map(symmetric) {
+        // A column is symmetric along both of the others.
+        [true, true] => written,
+        // So is one whose other extents are alike, wherever it stands.
+        _ if is_tall && (extent(others[0]) - extent(others[1])).abs() <= SYMMETRIC * size => written,
+        [true, false] if is_tall => upright(usual, others[0], others[1]),
+        [false, true] if is_tall => upright(usual, others[1], others[0]),
+        [false, false] if is_tall && off(others[0]).min(off(others[1])) > NEARLY && !symmetric(usual) => {
             let message = format!(
                 "the axes are ambiguous: x runs from {} to {}, y from {} to {}, z from {} to {}",
                 least[0], greatest[0], least[1], greatest[1], least[2], greatest[2]
             );
-            let remedy = "Say axes = \"x y z\" (the file's axis for forward, port and up) in a TOML file of the same name beside it";
+            let remedy = "Say --axes \"x y z\" (the file's axis for forward, port and up; axes in the TOML beside it)";
             problems.error("E351", FilePosition::FILE, message, remedy);
             return None;
         }
+        _ => {
+            let across = written[1].0;
+            let exchanged = symmetric(usual) && !symmetric(across) && off(across) > NEARLY;
+            if exchanged { with_up((across, 1.0)) } else { written }
+        }
     };
     let across = frame[1].0;
-    if !symmetric(across) && is_nearly([across, frame[2].0]) {
+    let is_half = least[across].abs().min(greatest[across].abs()) <= NEARLY * extent(across);
+    if !symmetric(across) && !is_half {
         let message = format!(
             "{} runs from {} to {}: the body is not symmetric about the centreplane, and is taken as it is",
             names[across], least[across], greatest[across]
         );
-        problems.warning("W320", FilePosition::FILE, message, "");
+        let remedy = "Say --axes (axes in the TOML beside it) where the axes are others";
+        problems.warning("W320", FilePosition::FILE, message, remedy);
     }
-    if frame.map(|(axis, _)| axis) != [0, 1, 2] {
+    if frame.map(|(axis, _)| axis) != [0, 1, 2] && frame != with_up((usual, 1.0)) {
         let written = frame.map(|(axis, sign)| format!("{}{}", if sign < 0.0 { "-" } else { "" }, names[axis]));
         let message = format!("axes are taken as \"{}\" by the extents of the body", written.join(" "));
         problems.warning("W320", FilePosition::FILE, message, "");
     }
     Some(frame)
+}
+
+/// The right-handed frame of a body whose length, breadth and height are these axes.
+fn upright(forward: usize, across: usize, up: usize) -> [(usize, f64); 3] {
+    let sign = if (forward + 1) % 3 == across { 1.0 } else { -1.0 };
+    [(forward, 1.0), (across, sign), (up, 1.0)]
 }
