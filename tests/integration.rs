@@ -55,6 +55,7 @@ mod suspects;
 mod suspects_lines;
 mod suspects_outlines;
 mod table_errors;
+mod table_evidence;
 mod table_files;
 mod table_layouts;
 mod table_reading;

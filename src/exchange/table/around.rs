@@ -21,17 +21,34 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
             settings.units = Some(unit);
         }
     }
-    if let Some(text) = texts().find(|text| says_full(&text.text)).filter(|_| settings.full.is_none()) {
+    let heads = pieces.tables.first().and_then(|piece| piece.rows.first());
+    if let Some(unit) =
+        heads.and_then(|row| unit_of_breadths(row.first()?.trimmed())).filter(|_| settings.units.is_none())
+    {
+        let other = heads.and_then(|row| unit_of(row.first()?.trimmed()));
+        settings.units = Some(unit);
+        settings.x_units = settings.x_units.or(other);
+    }
+    let corners = heads.into_iter().flatten();
+    if let Some(text) = texts().chain(corners).find(|text| says_full(&text.text)).filter(|_| settings.full.is_none()) {
         let message = format!("full breadths, by '{}'", text.trimmed());
         problems.warning("W320", text.place(), message, "Give breadths = \"half\" in the conventions if they are not");
         settings.full = Some(true);
     }
 }
 
+/// The unit of half-breadths where a header states it apart from that of the positions: `x [m]; half-breadths in mm`.
+fn unit_of_breadths(text: &str) -> Option<Notation> {
+    let lower = text.to_lowercase();
+    let (_, after) = lower.split_once("breadths").or_else(|| lower.split_once("offsets"))?;
+    let word = after.trim().trim_start_matches("in ").trim_matches(|c: char| !c.is_alphabetic());
+    Notation::from_word(word)
+}
+
 /// Whether words say that breadths are full.
 pub(super) fn says_full(text: &str) -> bool {
-    let lower = text.to_lowercase().replace('-', " ");
-    lower.contains("full breadth") || lower.contains("full beam")
+    let lower = text.to_lowercase().replace(['-', '_'], " ");
+    ["full breadth", "full beam", "full width", "whole breadth"].iter().any(|words| lower.contains(words))
 }
 
 /// Comments that say what the row of units did, which is not written back.

@@ -4,8 +4,9 @@ use super::checks;
 use super::grid::MOST_LINES;
 use super::header::{Axis, Coordinate, Corner, Position, position};
 use super::matrix::{Block, MatrixRow};
+use super::numbering::origin;
 use super::problem::{Field, FilePosition, Problems};
-use super::scale::{Size, Units, ends_from_midship, origin, units};
+use super::scale::{Size, Units, ends_from_midship, units};
 use super::settings::Settings;
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, SideKind, SideLine, StationDatum, StationOffsets, TableForm, Written,
@@ -23,6 +24,8 @@ pub(super) struct TableReader<'a> {
     pub(super) form: TableForm,
     pub(super) units: Units,
     pub(super) problems: &'a mut Problems,
+    /// Length between perpendiculars, where it is known \[m\].
+    pub(super) length: Option<f64>,
     /// How often offsets have so many digits after the decimal sign; more than the last count as the last.
     digits: [usize; 18],
     /// Offsets as plain numbers, and in feet, inches and eighths.
@@ -33,7 +36,8 @@ impl<'a> TableReader<'a> {
     pub(super) fn new(settings: &'a Settings, mut form: TableForm, units: Units, problems: &'a mut Problems) -> Self {
         (form.notation, form.x_notation, form.z_notation) = (units.y, units.x, units.z);
         form.full_breadths = settings.full.unwrap_or(false);
-        Self { settings, form, units, problems, digits: [0; 18], writings: [0; 2] }
+        let length = settings.stated.length_between_perpendiculars;
+        Self { settings, form, units, problems, length, digits: [0; 18], writings: [0; 2] }
     }
 
     fn reading(&mut self, field: &Field, unit: Notation) -> Option<CellReading> {
@@ -112,7 +116,6 @@ impl<'a> TableReader<'a> {
 
     /// A position of a station \[m\]. Numbers that are lengths carry their unit already.
     pub(super) fn along(&self, position: Position) -> f64 {
-        let lpp = self.settings.stated.length_between_perpendiculars;
         match (position.place, self.form.origin) {
             (Coordinate::Number(number), StationDatum::Lengths) => self.units.x.metres(number),
             (Coordinate::Number(number), StationDatum::Shifted { offset, sign }) => {
@@ -122,8 +125,8 @@ impl<'a> TableReader<'a> {
             (Coordinate::Length(length), StationDatum::Shifted { offset, sign }) => offset + sign * length,
             (Coordinate::Length(length), _) => length,
             (Coordinate::AftPerpendicular, _) => 0.0,
-            (Coordinate::ForePerpendicular, _) => lpp.unwrap_or(0.0),
-            (Coordinate::Midship, _) => 0.5 * lpp.unwrap_or(0.0),
+            (Coordinate::ForePerpendicular, _) => self.length.unwrap_or(0.0),
+            (Coordinate::Midship, _) => 0.5 * self.length.unwrap_or(0.0),
         }
     }
 
@@ -237,11 +240,12 @@ pub(super) fn assemble(
     } else {
         Notation::Metres
     });
-    let (origin, numbers) = origin(settings, corner, &stations, half * rough.metres(y.largest), problems);
+    let origin = origin(settings, corner, &stations, half * rough.metres(y.largest), problems);
     let sizes = [Size::of_positions(stations.iter()), y, Size::of_positions(heads.iter())];
-    let units = units(settings, corner, sizes, numbers, problems);
-    let origin = ends_from_midship(origin, settings, &stations, units.x, problems);
-    let mut reader = TableReader::new(settings, TableForm { origin, ..form }, units, problems);
+    let units = units(settings, corner, sizes, origin.numbers, problems);
+    let datum = ends_from_midship(origin.datum, settings, &stations, units.x, problems);
+    let mut reader = TableReader::new(settings, TableForm { origin: datum, ..form }, units, problems);
+    reader.length = reader.length.or(origin.length);
     let mut table = OffsetTable::default();
     for block in blocks {
         let Some(placed) = place(&block, &mut reader) else {
@@ -292,10 +296,7 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     let heads = reader.positions(&block.heads, what);
     let stations = reader.positions(&lines, "station");
     let (heads, stations) = (heads?, stations?);
-    let Settings { waterline_spacing, units, z_units, .. } = reader.settings;
-    let is_stated =
-        waterline_spacing.is_some() || units.or(*z_units).or(Corner::of(block.corner.trimmed()).unit).is_some();
-    if block.across == Axis::Waterline && !is_stated && are_numbered(&heads) {
+    if block.across == Axis::Waterline && are_numbered(block, &heads, reader.settings) {
         let message = format!(
             "waterlines are numbered, '{}' to '{}', and their spacing is not known: taken as 1 {} apart",
             block.heads[0].trimmed(),
@@ -319,15 +320,35 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     Some(Placed { xs, across, station_order: station_order?, across_order: across_order? })
 }
 
-/// Whether waterlines have names with numbers that follow each other: WL 1, WL 2, WL 3.
-fn are_numbered(heads: &[Position]) -> bool {
-    let number = |position: &Position| match position.place {
-        Coordinate::Number(number) if position.named => Some(number),
-        _ => None,
+/// Whether the waterlines have numbers, as WL 0, WL 1/2, WL 1, WL 2, and nothing says how far apart they are. What is written
+/// with a decimal sign or with a unit is a height.
+fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool {
+    let corner = Corner::of(block.corner.trimmed());
+    let of_heights = corner.rows.is_none() || corner.columns.is_some();
+    if settings.waterline_spacing.or(settings.z_units.map(|_| 1.0)).is_some() || corner.unit.is_some() && of_heights {
+        return false;
+    }
+    let named = heads.iter().filter(|head| head.named).count();
+    let by_corner = names_waterlines(block.corner.trimmed());
+    let count = |(head, field): (&Position, &Field)| match head.place {
+        Coordinate::Number(number) => !is_decimal(field.trimmed()) && (4.0 * number).fract().abs() < 1e-9,
+        _ => false,
     };
-    let numbers: Option<Vec<f64>> = heads.iter().map(number).collect();
-    let follow = |pair: &[f64]| ((pair[1] - pair[0]).abs() - 1.0).abs() < 1e-9;
-    numbers.is_some_and(|all| all.len() > 2 && all[0].fract() == 0.0 && all.windows(2).all(follow))
+    heads.len() > 2 && (by_corner || 2 * named > heads.len()) && heads.iter().zip(&block.heads).all(count)
+}
+
+/// Whether a corner says of its columns that they are waterlines, and not heights.
+fn names_waterlines(corner: &str) -> bool {
+    let Some((_, after)) = corner.split_once(['\\', '/']) else { return false };
+    after
+        .split(|c: char| !c.is_alphabetic())
+        .any(|word| ["wl", "wls", "waterline", "waterlines"].contains(&word.to_lowercase().as_str()))
+}
+
+/// Whether the number of a header has a decimal sign between two digits.
+fn is_decimal(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    bytes.windows(2).any(|pair| matches!(pair[0], b'.' | b',') && pair[1].is_ascii_digit())
 }
 
 /// Puts a block into the table.

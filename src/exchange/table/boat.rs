@@ -13,12 +13,17 @@
 //! at waterlines and of heights at buttocks belong to the sections as well. Chines and knuckles are knuckles; without
 //! waterlines and buttocks all lines between the lowest and the highest are, with straight panels between them.
 
+use super::around::says_full;
 use super::assemble::{TableReader, order};
 use super::header::{Axis, Corner, Position, axis_of, position};
+use super::long::{HALF_OR_FULL, half_taken};
+use super::numbering::origin;
 use super::pieces::is_numeric;
 use super::problem::{Field, FilePosition, Problems};
-use super::scale::{Size, ends_from_midship, origin, units};
+use super::scale::{Size, ends_from_midship, units};
 use super::settings::Settings;
+use std::borrow::Cow;
+
 use crate::hull::{Kept, Marks, OffsetTable, Order, OutlinePoint, StationOffsets, TableForm, TableLayout};
 
 /// Fewer lines with heights and half-breadths are the side rows of a matrix.
@@ -48,6 +53,8 @@ struct Row<'g> {
 struct Lines<'g> {
     heads: &'g [Field],
     rows: Vec<Row<'g>>,
+    /// All labels, those of groups among them.
+    labels: Vec<&'g Field>,
 }
 
 fn words(text: &str) -> Vec<String> {
@@ -65,9 +72,9 @@ fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
     let mut rest = Vec::new();
     for word in words(text) {
         match word.as_str() {
-            "height" | "heights" => group = group.or(Some(Group::Heights)),
-            "half" | "breadth" | "breadths" | "halfbreadth" | "halfbreadths" | "width" | "widths" | "halfwidth"
-            | "halfwidths" => group = Some(Group::HalfBreadths),
+            "height" | "heights" | "hab" => group = group.or(Some(Group::Heights)),
+            "half" | "hb" | "breadth" | "breadths" | "halfbreadth" | "halfbreadths" | "width" | "widths"
+            | "halfwidth" | "halfwidths" => group = Some(Group::HalfBreadths),
             "diagonal" | "diagonals" | "diag" => group = Some(Group::Diagonals),
             "length" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
                 group = group.or(Some(Group::Positions));
@@ -82,9 +89,9 @@ fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
 
 /// The rows with their groups; none where the table has no labels and cells.
 fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
-    let mut filled = rows.iter().filter(|row| row.iter().filter(|field| !field.is_blank()).count() > 1);
-    let head = filled.next()?;
-    let body: Vec<&Vec<Field>> = rows.iter().filter(|row| !row.is_empty() && row[0].row > head[0].row).collect();
+    let at = rows.iter().position(|row| row.iter().filter(|field| !field.is_blank()).count() > 1)?;
+    let head = &rows[at];
+    let body: Vec<&Vec<Field>> = rows[at + 1..].iter().filter(|row| !row.is_empty()).collect();
     let width = head.len();
     let labels = (0..width.min(3))
         .take_while(|&j| body.iter().all(|row| row.get(j).is_none_or(|field| !is_numeric(field))))
@@ -92,7 +99,7 @@ fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
     if labels == 0 || labels + 2 > width {
         return None;
     }
-    let mut list = Vec::new();
+    let (mut list, mut all) = (Vec::new(), Vec::new());
     let mut group = None;
     for row in body {
         let cells = row.get(labels..).unwrap_or_default();
@@ -104,6 +111,7 @@ fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
             own = own.or(group);
             name.extend(rest);
         }
+        all.extend(named.clone());
         let Some(label) = named.next_back() else { continue };
         if own.is_some() && own != Some(Group::Positions) {
             group = own;
@@ -113,7 +121,7 @@ fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
         }
         list.push(Row { group: own.or(group), name: name.join(" "), label, cells });
     }
-    Some(Lines { heads: &head[labels..], rows: list })
+    Some(Lines { heads: &head[labels..], rows: list, labels: all })
 }
 
 impl Lines<'_> {
@@ -142,10 +150,27 @@ fn across(row: &Row<'_>) -> Option<Position> {
 
 /// Whether rows are lines with heights and half-breadths.
 pub(super) fn is_boat(rows: &[Vec<Field>]) -> bool {
-    lines(rows).is_some_and(|lines| {
-        let both = |name: &&&str| lines.has(name, Group::Heights) && lines.has(name, Group::HalfBreadths);
-        lines.names().iter().filter(both).count() >= LEAST_LINES
-    })
+    !settled(rows).is_empty()
+}
+
+/// The rows of the file, or its columns where its stations stand below each other.
+fn settled(rows: &[Vec<Field>]) -> Cow<'_, [Vec<Field>]> {
+    let is_boat = |rows: &[Vec<Field>]| {
+        lines(rows).is_some_and(|lines| {
+            let both = |name: &&&str| lines.has(name, Group::Heights) && lines.has(name, Group::HalfBreadths);
+            lines.names().iter().filter(both).count() >= LEAST_LINES
+        })
+    };
+    if is_boat(rows) {
+        return Cow::Borrowed(rows);
+    }
+    let filled: Vec<&Vec<Field>> = rows.iter().filter(|row| row.iter().any(|field| !field.is_blank())).collect();
+    let width = filled.iter().map(|row| row.len()).max().unwrap_or(0);
+    let turned: Vec<Vec<Field>> = (0..width)
+        .map(|j| filled.iter().map(|row| row.get(j).cloned().unwrap_or_default()).collect())
+        .filter(|column: &Vec<Field>| column.iter().any(|field| !field.is_blank()))
+        .collect();
+    if is_boat(&turned) { Cow::Owned(turned) } else { Cow::Borrowed(&[]) }
 }
 
 /// Which end the name of a station is: -1 aft, 1 forward.
@@ -172,7 +197,10 @@ pub(super) fn read(
     settings: &Settings,
     problems: &mut Problems,
 ) -> Option<OffsetTable> {
-    let lines = lines(rows)?;
+    let rows = settled(rows);
+    let lines = lines(&rows)?;
+    let full = breadths(&lines, settings, problems);
+    let settings = &Settings { full: Some(full), ..settings.clone() };
     let positions_row = lines.rows.iter().find(|row| row.group == Some(Group::Positions));
     let fields: &[Field] = positions_row.map_or(lines.heads, |row| row.cells);
     let heads = positions(lines.heads, fields, form.decimal_comma, problems)?;
@@ -182,14 +210,17 @@ pub(super) fn read(
     let places: Vec<Position> = heads.iter().map(|(_, position)| *position).collect();
     let corner =
         Corner { rows: Some(if positions_row.is_some() { Axis::X } else { Axis::Station }), ..Corner::default() };
-    let (datum, numbers) = origin(settings, corner, &places, y.largest, problems);
-    let units = units(settings, corner, [Size::of_positions(places.iter()), y, z], numbers, problems);
-    let datum = ends_from_midship(datum, settings, &places, units.x, problems);
+    let origin = origin(settings, corner, &places, y.largest, problems);
+    let units = units(settings, corner, [Size::of_positions(places.iter()), y, z], origin.numbers, problems);
+    let datum = ends_from_midship(origin.datum, settings, &places, units.x, problems);
     let form = TableForm { origin: datum, layout: TableLayout::Other, ..form };
     let mut reader = TableReader::new(settings, form, units, problems);
+    reader.length = reader.length.or(origin.length);
     let xs: Vec<f64> = places.iter().map(|place| reader.along(*place)).collect();
     let fields: Vec<Field> = heads.iter().map(|(at, _)| fields[*at].clone()).collect();
-    let points = points(&lines, &heads, &mut reader);
+    let points = points(&lines, &heads, &xs, &mut reader);
+    let names: Vec<&str> = heads.iter().map(|(at, _)| lines.heads[*at].trimmed()).collect();
+    crossings(&points, &names, reader.problems);
     let direction = order(&xs, &fields, "station", reader.problems)?;
     let has_cuts = points.iter().any(|point| point.name.is_empty());
     let mut table = OffsetTable::default();
@@ -238,9 +269,99 @@ fn positions(
     (list.len() > 1 && !problems.any_errors()).then_some(list)
 }
 
+/// Whether breadths are full, by the conventions or by the labels; says so where these leave it open.
+fn breadths(lines: &Lines<'_>, settings: &Settings, problems: &mut Problems) -> bool {
+    if let Some(full) = settings.full {
+        return full;
+    }
+    if let Some(label) = lines.labels.iter().find(|label| says_full(&label.text)) {
+        let message = format!("full breadths, by '{}'", label.trimmed());
+        problems.warning("W320", label.place(), message, HALF_OR_FULL);
+        return true;
+    }
+    let of_breadths = |label: &&&Field| group_of(&label.text).0 == Some(Group::HalfBreadths);
+    let says_half = |label: &&Field| {
+        let lower = label.text.to_lowercase();
+        lower.contains("half") || words(&lower).iter().any(|word| word == "hb")
+    };
+    if let Some(label) = lines.labels.iter().find(of_breadths).filter(|_| !lines.labels.iter().any(says_half)) {
+        problems.warning("W320", label.place(), half_taken(label.trimmed()), HALF_OR_FULL);
+    }
+    false
+}
+
+/// Values of a line at the stations: those that its row lacks between two that it has are taken from the cubic through the
+/// nearest four, with a warning.
+fn filled(
+    row: &Row<'_>,
+    values: Vec<Option<f64>>,
+    xs: &[f64],
+    names: &[&str],
+    reader: &mut TableReader<'_>,
+) -> Vec<Option<f64>> {
+    let known: Vec<(f64, f64)> = xs.iter().zip(&values).filter_map(|(x, value)| Some((*x, (*value)?))).collect();
+    let given = |k: usize| values[k].is_some();
+    let mut found = values.clone();
+    for k in (0..values.len()).filter(|k| !given(*k)) {
+        if !(0..k).any(given) || !(k + 1..values.len()).any(given) {
+            continue;
+        }
+        let mut near = known.clone();
+        near.sort_by(|a, b| (a.0 - xs[k]).abs().total_cmp(&(b.0 - xs[k]).abs()));
+        near.truncate(4);
+        let factor = |i: usize| -> f64 {
+            let others = near.iter().enumerate().filter(|(j, _)| *j != i);
+            others.map(|(_, (x, _))| (xs[k] - x) / (near[i].0 - x)).product()
+        };
+        let value: f64 = (0..near.len()).map(|i| near[i].1 * factor(i)).sum();
+        let message = format!(
+            "'{}' gives nothing at station '{}': {value:.4} m is taken, by its neighbours",
+            row.label.trimmed(),
+            names[k]
+        );
+        reader.problems.warning("W320", row.label.place(), message, "Give the value");
+        found[k] = Some(value);
+    }
+    found
+}
+
+/// Says where lines stand in another order than at most stations: sheer above chine above keel.
+fn crossings(points: &[LinePoint], names: &[&str], problems: &mut Problems) {
+    let height = |name: &str, station: usize| {
+        points.iter().find(|point| point.station == station && point.name == name).map(|point| point.z)
+    };
+    let mut lines: Vec<&str> = Vec::new();
+    for point in points.iter().filter(|point| !point.name.is_empty()) {
+        if !lines.contains(&point.name.as_str()) {
+            lines.push(&point.name);
+        }
+    }
+    for (k, first) in lines.iter().enumerate() {
+        for second in &lines[k + 1..] {
+            let apart = |station: usize| Some(height(first, station)? - height(second, station)?);
+            let (above, below): (Vec<usize>, Vec<usize>) = (0..names.len())
+                .filter(|station| apart(*station).is_some_and(|by| by.abs() > SAME_POINT))
+                .partition(|station| apart(*station).is_some_and(|by| by > 0.0));
+            let odd = if above.len() < below.len() { above } else { below };
+            let all = (0..names.len()).filter(|station| apart(*station).is_some()).count();
+            for station in odd.iter().filter(|_| 4 * odd.len() < all) {
+                let message =
+                    format!("'{first}' and '{second}' cross at station '{}': a height may be wrong", names[*station]);
+                problems.warning(
+                    "W336",
+                    FilePosition::FILE,
+                    message,
+                    "Correct the height, or exchange the lines there",
+                );
+            }
+        }
+    }
+}
+
 /// The points of all lines at all stations.
-fn points(lines: &Lines<'_>, heads: &[(usize, Position)], reader: &mut TableReader<'_>) -> Vec<LinePoint> {
+fn points(lines: &Lines<'_>, heads: &[(usize, Position)], xs: &[f64], reader: &mut TableReader<'_>) -> Vec<LinePoint> {
     let mut points = Vec::new();
+    let stations: Vec<&str> = heads.iter().map(|(at, _)| lines.heads[*at].trimmed()).collect();
     for name in lines.names() {
         let row = |group| lines.rows.iter().find(|row| row.group == Some(group) && row.name == name);
         let (heights, breadths) = (row(Group::Heights), row(Group::HalfBreadths));
@@ -260,12 +381,25 @@ fn points(lines: &Lines<'_>, heads: &[(usize, Position)], reader: &mut TableRead
                 "Give a row of its half-breadths (half siding)",
             );
         }
-        for (station, (at, _)) in heads.iter().enumerate() {
-            let z = heights.cells.get(*at).and_then(|field| reader.length(field, reader.units.z));
-            let y = match breadths {
-                Some(row) => row.cells.get(*at).and_then(|field| reader.cell(field, true).value()),
-                None => Some(0.0),
-            };
+        let of = |row: &Row<'_>, half: bool, reader: &mut TableReader<'_>| -> Vec<Option<f64>> {
+            let values = heads.iter().map(|(at, _)| {
+                let field = row.cells.get(*at)?;
+                if half { reader.cell(field, true).value() } else { reader.length(field, reader.units.z) }
+            });
+            values.collect()
+        };
+        let zs = of(heights, false, reader);
+        let ys = breadths.map(|row| of(row, true, reader));
+        // A line may end where both of its rows do; where one alone has nothing it is not known.
+        let is_half = |k: usize| ys.as_ref().is_some_and(|ys| ys[k].is_some() != zs[k].is_some());
+        let any = (0..heads.len()).any(is_half);
+        let (zs, ys) = match (breadths, ys) {
+            (Some(row), Some(ys)) if any => {
+                (filled(heights, zs, xs, &stations, reader), filled(row, ys, xs, &stations, reader))
+            }
+            (_, ys) => (zs, ys.unwrap_or_else(|| vec![Some(0.0); heads.len()])),
+        };
+        for (station, (y, z)) in ys.into_iter().zip(zs).enumerate() {
             if let (Some(y), Some(z)) = (y, z) {
                 points.push(LinePoint { station, name: name.to_owned(), y, z });
             }

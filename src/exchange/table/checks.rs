@@ -1,13 +1,16 @@
 //! Checks of a table as a whole. A cell that is merely suspicious is not an error of reading.
 
 use super::assemble::{SAME, TableReader};
+use super::bottom;
+use super::ends;
 use super::problem::{Field, FilePosition, Problems};
+use super::scale::{LARGEST_HALF_BREADTH, LARGEST_HEIGHT, LARGEST_LENGTH};
 use super::settings::Settings;
 use crate::hull::{Cell, Entry, OffsetTable, StationOffsets};
 use crate::units::counted;
 
-/// Part of the volume that may be below the lowest waterline before it is a warning.
-const BOTTOM: f64 = 0.01;
+/// Distance of the lowest point from z = 0 over the height of the sections that is a warning.
+const OFF_BASE: f64 = 0.2;
 
 /// Most missing offsets that are named.
 const MOST_PLACES: usize = 6;
@@ -74,7 +77,9 @@ pub(super) fn profiles(table: &OffsetTable, problems: &mut Problems) {
     for (end, (name, word)) in [("stern", "aft of"), ("stem", "forward of")].into_iter().enumerate() {
         let aft_of = |a: f64, b: f64| if end == 0 { a < b } else { a > b };
         let given = || table.endings.iter().enumerate().filter_map(move |(j, ends)| Some((j, ends[end]?)));
-        if let Some((j, x)) = given().find(|&(_, x)| table.stations.len() > 1 && aft_of(0.5 * (low + high), x)) {
+        // Low waterlines of a keel that rises to both ends are short, and anywhere.
+        let beyond = || given().filter(|&(_, x)| table.stations.len() > 1 && aft_of(0.5 * (low + high), x));
+        if let Some((j, x)) = beyond().last().filter(|_| 2 * beyond().count() > given().count()) {
             let message = format!(
                 "the profile of the {name} is at x {x} m on waterline {} m, beyond the middle of the stations, which is at {} m",
                 table.waterlines[j],
@@ -216,19 +221,8 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
             "Give rows 'stern' and 'stem' below the half-breadths, or [endings]",
         );
     }
-    if let Some((z, share)) = unknown_bottom(table).filter(|(_, share)| *share > BOTTOM) {
-        let message = format!(
-            "the lowest waterline is {z} m above the base line, and no keel is given: what is below it does not count, and is \
-             up to {:.1} % of the volume",
-            100.0 * share
-        );
-        problems.warning(
-            "W315",
-            FilePosition::FILE,
-            message,
-            "Give a row or a column 'keel' with its heights, or the lowest waterlines",
-        );
-    }
+    bottom::unknown(table, problems);
+    ends::cut_off(table, problems);
     if let Some(highest) = table.closes_above() {
         let breadths = table.stations.iter().filter_map(|station| station.half_breadth(highest));
         let message = format!(
@@ -249,29 +243,62 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
     }
 }
 
-/// Height of the lowest waterline above the base line \[m\], and what a hull of plumb sides has below it as a part of all, by
-/// trapezoids; none where keels or points are given, or the lowest waterline is on the base line or below it.
-fn unknown_bottom(table: &OffsetTable) -> Option<(f64, f64)> {
-    let lowest = table.waterlines.first().copied().filter(|z| *z > SAME)?;
-    let has_keel = |station: &StationOffsets| station.keel_height.is_some() || station.flat_of_bottom.is_some();
-    if table.point_count() > 0 || table.stations.iter().any(has_keel) {
-        return None;
-    }
-    let trapezoids =
-        |points: &[[f64; 2]]| points.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum();
-    let area = |(j, &z): (usize, &f64)| -> [f64; 2] {
-        let breadths = table.stations.iter().map(|s| [s.station.x, s.half_breadth(j).unwrap_or(0.0)]);
-        [z, trapezoids(&breadths.collect::<Vec<_>>())]
+/// Hulls that are larger than any, or shorter than they are broad: another unit, numbers for distances, other axes.
+fn size(table: &OffsetTable, problems: &mut Problems) {
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
     };
-    let areas: Vec<[f64; 2]> = table.waterlines.iter().enumerate().map(area).collect();
-    let (below, above): (f64, f64) = (lowest * areas[0][1], trapezoids(&areas));
-    (below > 0.0).then(|| (lowest, below / (below + above)))
+    let points = || table.stations.iter().flat_map(|s| s.outlines.iter().flatten());
+    let cells = table.stations.iter().flat_map(|s| s.half_breadths.iter().filter_map(Cell::value));
+    let [aft, fore] = range(&mut table.stations.iter().map(|s| s.station.x));
+    let half = range(&mut cells.chain(points().map(|p| p.y)))[1];
+    let [low, high] = range(&mut table.waterlines.iter().copied().chain(points().map(|p| p.z)));
+    let sizes = [
+        ("length", fore - aft, LARGEST_LENGTH),
+        ("half-breadth", half, LARGEST_HALF_BREADTH),
+        ("height", high - low, LARGEST_HEIGHT),
+    ];
+    let mut good = true;
+    for (what, found, most) in sizes.into_iter().filter(|(_, found, most)| found > most) {
+        let message = format!("the hull would have a {what} of {found:.0} m, and no ship has one above {most} m");
+        problems.error("E305", FilePosition::FILE, message, "Give the unit of the table, as units = \"mm\"");
+        good = false;
+    }
+    if points().next().is_some() && low.abs() > OFF_BASE * (high - low) {
+        let message = format!("the lowest point is at z = {low:.3} m, and draughts, C_B and KB count from z = 0");
+        problems.warning("W320", FilePosition::FILE, message, "Give heights above the base line");
+    }
+    let level = |s: &StationOffsets| {
+        let [low, high] = range(&mut s.outlines.iter().flatten().map(|p| p.z));
+        s.outlines.iter().map(Vec::len).sum::<usize>() > 2 && high - low < SAME
+    };
+    if table.stations.len() > 2 && table.stations.first().is_some_and(level) && table.stations.last().is_some_and(level)
+    {
+        let message =
+            "the first section and the last one are level lines: the columns y and z may be exchanged".to_owned();
+        problems.warning(
+            "W320",
+            FilePosition::FILE,
+            message,
+            "Name the column of heights z and that of half-breadths y",
+        );
+    }
+    if good && table.stations.len() > 2 && fore - aft < 2.0 * half {
+        let message = format!(
+            "the stations extend over {:.3} m, less than the breadth of {:.3} m: another unit, numbers of stations, or other axes",
+            fore - aft,
+            2.0 * half
+        );
+        let remedy = "Give units, x_units or station_spacing in the conventions";
+        problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
 }
 
 /// Stated particulars that contradict the table: a draught above its top, a breadth that differs from twice the largest
 /// half-breadth by more than 5 %, a length between perpendiculars that differs from the extent of the stations by more
 /// than a factor 1.5.
 pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
+    size(table, problems);
     let stated = &table.stated;
     let points = || table.stations.iter().flat_map(|s| s.outlines.iter().flatten());
     let heights = table.stations.iter().flat_map(|s| s.heights.iter().filter_map(Cell::value).chain(s.deck_height));

@@ -2,11 +2,11 @@
 //!
 //! | column | headers |
 //! |---|---|
-//! | x | `x`, `position`, `longitudinal position`, `distance`, `station position`, `x from AP` |
+//! | x | `x`, `position`, `length`, `longitudinal position`, `distance`, `station position`, `x from AP` |
 //! | station | `station`, `stn`, `st`, `sta`, `section`, `frame`, `ordinate`, `name` |
 //! | z | `z`, `height`, `elevation`, `waterline height`, `height above base` |
 //! | waterline | `waterline`, `wl`, `level`, `draught` |
-//! | y | `y`, `offset`, `half-breadth`, `half_breadth`, `halfbreadth`, `half width`, `half beam` |
+//! | y | `y`, `offset`, `half-breadth`, `half_breadth`, `halfbreadth`, `half width`, `half beam`, `HB`; `breadth`, `width` or `beam` where no other column is one of these |
 //! | index | none, `i`, `j`, `k`, `n`, `no`, `id`, `index`, `row`, `hull`, `ship`, and stations or waterlines with `id`, `no` or `index` |
 //! | curve, flag, loop, point | `curve`, `kind`, `flag`, `mark`, `loop`, `branch`, `point` |
 //!
@@ -104,9 +104,18 @@ pub(super) fn column(name: &str) -> Option<Named> {
     Some(Named { column, unit, from_ap, fraction })
 }
 
+/// A column of breadths that are not said to be half ones.
+pub(super) fn breadths(name: &str) -> Option<Named> {
+    let lower = name.to_lowercase();
+    let word = ["breadth", "width", "beam"].into_iter().find(|word| lower.contains(word))?;
+    column(&lower.replacen(word, "half breadth", 1)).filter(|named| named.column == Column::Y)
+}
+
 fn axis(words: &str) -> Option<Column> {
     Some(match words {
-        "station" | "stations" | "stn" | "sta" | "st" | "section" | "frame" | "ordinate" | "name" => Column::Station,
+        "station" | "stations" | "stn" | "sta" | "st" | "section" | "frame" | "ordinate" | "name" | "spant" => {
+            Column::Station
+        }
         "x"
         | "long. pos"
         | "longitudinal pos"
@@ -114,12 +123,14 @@ fn axis(words: &str) -> Option<Column> {
         | "position"
         | "distance"
         | "x position"
+        | "length"
         | "station position"
         | "station x"
         | "x station" => Column::X,
         "loop" | "branch" => Column::Loop,
         "point" => Column::Point,
-        "y" | "offset" | "half breadth" | "halfbreadth" | "half width" | "half beam" | "y offset" => Column::Y,
+        "y" | "offset" | "half breadth" | "halfbreadth" | "half width" | "half beam" | "y offset" | "hb"
+        | "halbbreite" => Column::Y,
         "z"
         | "height"
         | "elevation"
@@ -128,7 +139,7 @@ fn axis(words: &str) -> Option<Column> {
         | "height above baseline"
         | "z position"
         | "waterline z" => Column::Z,
-        "waterline" | "water line" | "wl" | "level" | "draught" | "draft" => Column::Waterline,
+        "waterline" | "water line" | "wl" | "level" | "draught" | "draft" | "wasserlinie" => Column::Waterline,
         "curve" | "kind" => Column::Curve,
         "flag" | "flags" | "mark" | "marks" => Column::Flag,
         _ => return None,
@@ -155,6 +166,7 @@ mod tests {
         assert_eq!(column("y_mm").unwrap().unit, Some(Notation::Millimetres));
         assert_eq!((of("x [feet-inches-eighths]"), of("Long. Pos (m)")), (Column::X, Column::X));
         assert!(column("x_from_ap_m").unwrap().from_ap);
+        assert_eq!(breadths("breadth_m").map(|named| named.unit), Some(Some(Notation::Metres)));
         for name in ["breadth", "0.5", "WL 3", "keel", "beam"] {
             assert_eq!(column(name), None, "{name}");
         }

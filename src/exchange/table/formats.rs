@@ -2,13 +2,16 @@
 
 use super::grid::{LARGEST_TABLE, MOST_CELLS, MOST_ROWS};
 use super::problem::{FilePosition, Problems};
+use super::settings::Settings;
 use super::{
     ReadTable, TableProblem, britfair, delftship, freeship, ghs, michlet, pdstrip, pias, points, ratio, seaway,
 };
 use crate::hull::{OffsetTable, Program};
 
 /// Whether a text is in a format, the table in it, and the program, where its format can be written.
-type Format = (fn(&str, &str) -> bool, fn(&str, &str) -> Result<ReadTable, Vec<TableProblem>>, Option<Program>);
+type Format = (fn(&str, &str) -> bool, Reader, Option<Program>);
+
+type Reader = fn(&str, &str) -> Result<ReadTable, Vec<TableProblem>>;
 
 const FORMATS: [Format; 10] = [
     (michlet::recognise, michlet::read, None),
@@ -26,30 +29,42 @@ const FORMATS: [Format; 10] = [
 /// The table in a file of another program; none when it is in none of these formats.
 ///
 /// Bytes that are not UTF-8 stand in names only and are replaced. The TOML beside a file gives the dimensions of a
-/// table of fractions; the other formats need none.
+/// table of fractions, the unit of points, and what the file does not state.
 pub(super) fn read(
     name: &str,
     bytes: &[u8],
     sidecar: Option<(&str, &str)>,
+    settings: &Settings,
 ) -> Option<Result<ReadTable, Vec<TableProblem>>> {
     // The reader of fields says what is wrong with longer files.
     if bytes.len() > LARGEST_TABLE || super::xlsx::is_xlsx(bytes) {
         return None;
     }
     let text = String::from_utf8_lossy(bytes);
-    let read = recognised(name, &text, sidecar)?;
-    Some(read.map(|mut read| {
+    let text = if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n").into() } else { text };
+    let read = recognised(name, &text, sidecar, settings)?;
+    Some(read.and_then(|mut read| {
         let mut problems = Problems::new(name);
+        let own_unit = !points::recognise(name, &text);
+        super::obeyed::obey(settings, own_unit, &mut read.table, &mut problems);
+        super::chines::mark(&mut read.table, &mut problems);
+        super::bottom::unknown(&read.table, &mut problems);
+        super::ends::cut_off(&read.table, &mut problems);
         super::checks::missing(&mut read.table, &mut problems);
         super::checks::particulars(&read.table, &mut problems);
-        read.notes.extend(problems.finish().unwrap_or_default());
+        read.notes.extend(problems.finish()?);
         read.notes.sort_by_key(|note| (note.row.unwrap_or(0), note.column.unwrap_or(0)));
-        read
+        Ok(read)
     }))
 }
 
 /// The table in a text of one of the formats.
-fn recognised(name: &str, text: &str, sidecar: Option<(&str, &str)>) -> Option<Result<ReadTable, Vec<TableProblem>>> {
+fn recognised(
+    name: &str,
+    text: &str,
+    sidecar: Option<(&str, &str)>,
+    settings: &Settings,
+) -> Option<Result<ReadTable, Vec<TableProblem>>> {
     if let Some((sidecar, particulars)) = sidecar.filter(|_| ratio::recognise(name, text)) {
         let stated = super::sidecar::read_particulars(sidecar, particulars);
         return Some(stated.and_then(|stated| ratio::read_with(name, text, &stated)));
@@ -61,7 +76,9 @@ fn recognised(name: &str, text: &str, sidecar: Option<(&str, &str)>) -> Option<R
         problems.error("E312", FilePosition::FILE, format!("more than {MOST_ROWS} rows or {MOST_CELLS} numbers"), "");
         return Some(Err(problems.finish().err().unwrap_or_default()));
     }
-    Some(read(name, text).map(|mut read| {
+    let of_points = points::recognise(name, text) && std::ptr::fn_addr_eq(*read, points::read as Reader);
+    let read = if of_points { points::read_with(name, text, settings) } else { read(name, text) };
+    Some(read.map(|mut read| {
         // Only sections can be written by the writers of these formats.
         let sections = read.table.stations.iter().any(|s| !s.outlines.is_empty()) && read.table.lines.is_empty();
         read.table.form.program = program.filter(|_| sections);

@@ -57,6 +57,8 @@ pub(super) fn decode(bytes: &[u8], problems: &mut Problems) -> Option<String> {
             }
         }
     };
+    // Old Macs end lines with a carriage return alone.
+    let text = if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n") } else { text };
     if text.chars().any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r')) {
         problems.error(
             "E300",

@@ -1,7 +1,8 @@
 //! Headers: what a line is about (stations, waterlines, buttocks), where it lies, and in which unit.
 //!
 //! A position is a number in any notation, alone or with words: `1.5`, `1.50 m`, `3-0-0`, `WL 3`, `WL 3 (1.50 m)`,
-//! `z = 1.5`, `STN 1 1/2`, `station 7 @ 14.7 m`, `wl0.75`, `AP`, `FP`.
+//! `z = 1.5`, `STN 1 1/2`, `station 7 @ 14.7 m`, `wl0.75`, `3. WL`, `AP`, `FP`, `20 (FP)`, and the base line `BL` among
+//! waterlines.
 
 use crate::hull::SideKind;
 use crate::units::{Dimension, Notation, UnitError, parse};
@@ -41,9 +42,30 @@ pub(super) struct Position {
     pub(super) place: Coordinate,
     /// What the words beside it say.
     pub(super) axis: Option<Axis>,
-    /// Only a number after a word, as `WL 3`: a name or a height.
+    /// Only a number after a word or before it, as `WL 3` and `3. WL`: a name or a height.
     pub(super) named: bool,
+    /// The perpendicular that the header names, alone or beside its number.
+    pub(super) end: Option<From>,
 }
+
+impl Position {
+    fn at(place: Coordinate, text: &str) -> Self {
+        Self { place, axis: axis_of(text), named: false, end: From::end_of(text).or_else(|| From::of(text)) }
+    }
+}
+
+/// Whether a header names the base line: the waterline at height 0. Among buttocks `BL` is one of these.
+fn is_base_line(text: &str) -> bool {
+    let name = words(text).join(" ");
+    let known = matches!(
+        name.as_str(),
+        "bl" | "base" | "base line" | "baseline" | "b l" | "moulded base" | "moulded base line"
+    );
+    known && !text.bytes().any(|b| b.is_ascii_digit())
+}
+
+/// Words beside the height of a waterline that name it.
+const LEVELS: [&str; 9] = ["dwl", "lwl", "cwl", "swl", "dlwl", "kwl", "clwl", "mwl", "lwp"];
 
 /// Words of a text in lower case: runs of letters, and runs of other signs left out.
 fn words(text: &str) -> Vec<String> {
@@ -55,9 +77,9 @@ fn axis_word(word: &str) -> Option<Axis> {
         "x" | "distance" | "abscissa" => Axis::X,
         "station" | "stations" | "stn" | "stns" | "sta" | "st" | "frame" | "frames" | "fr" | "ordinate" | "section"
         | "sections" | "sec" | "rebro" | "spant" => Axis::Station,
-        "z" | "wl" | "wls" | "waterline" | "waterlines" | "height" | "heights" | "draught" | "draft" | "level" => {
-            Axis::Waterline
-        }
+        "z" | "wl" | "wls" | "waterline" | "waterlines" | "height" | "heights" | "draught" | "draft" | "level"
+        | "base" | "baseline" => Axis::Waterline,
+        word if LEVELS.contains(&word) => Axis::Waterline,
         "y" | "bt" | "butt" | "buttock" | "buttocks" | "bl" => Axis::Buttock,
         _ => return None,
     })
@@ -185,6 +207,17 @@ impl From {
     }
 }
 
+impl From {
+    /// The end of the hull that words name: FWD, forward perpendicular, aft.
+    pub(super) fn end_of(text: &str) -> Option<Self> {
+        words(&text.replace('.', "")).iter().find_map(|word| match word.as_str() {
+            "ap" | "aft" | "after" | "stern" => Some(Self::AftPerpendicular),
+            "fp" | "fwd" | "forward" | "fore" | "bow" | "stem" => Some(Self::ForePerpendicular),
+            _ => None,
+        })
+    }
+}
+
 impl Corner {
     pub(super) fn of(text: &str) -> Self {
         let unit = unit_of(text);
@@ -237,31 +270,43 @@ pub(super) fn position(text: &str, decimal_comma: bool) -> Result<Position, Unit
     let text = text.trim();
     let replaced = if decimal_comma { text.replace(',', ".") } else { String::new() };
     let text = if decimal_comma { replaced.as_str() } else { text };
-    let axis = axis_of(text);
+    let here = |place: Coordinate| Ok(Position::at(place, text));
     match text.to_lowercase().replace('.', "").as_str() {
-        "ap" => return Ok(Position { place: Coordinate::AftPerpendicular, axis, named: false }),
-        "fp" => return Ok(Position { place: Coordinate::ForePerpendicular, axis, named: false }),
-        "midship" | "midships" | "amidships" => return Ok(Position { place: Coordinate::Midship, axis, named: false }),
+        "ap" => return here(Coordinate::AftPerpendicular),
+        "fp" => return here(Coordinate::ForePerpendicular),
+        "midship" | "midships" | "amidships" => return here(Coordinate::Midship),
+        _ if is_base_line(text) => {
+            return Ok(Position {
+                place: Coordinate::Number(0.0),
+                axis: Some(Axis::Waterline),
+                named: true,
+                end: None,
+            });
+        }
         _ => {}
     }
-    // A length in brackets, or after = or @, is the position; what stands before it is a name.
+    // A length in brackets, or after = or @, is the position; what stands before it is a name. Words in brackets that name
+    // a perpendicular stand beside a position.
     let mut bare = text;
     if let Some((before, after)) = text.split_once(['(', '[']) {
         let inside = after.trim_end().trim_end_matches([')', ']']);
         let unit = Notation::from_word(inside).is_some();
-        if !before.trim().is_empty() && !unit {
+        let words_alone = !inside.bytes().any(|b| b.is_ascii_digit()) && From::of(inside).is_some();
+        if words_alone && !before.trim().is_empty() {
+            bare = before.trim();
+        } else if !before.trim().is_empty() && !unit {
             let inside = inside.trim_start_matches(|c: char| c.is_alphabetic() || c.is_whitespace() || c == '=');
-            return Ok(Position { place: number(inside)?, axis, named: false });
+            return here(number(inside)?);
         }
         if before.trim().is_empty() {
             bare = inside;
         }
     }
     if let Some((_, after)) = bare.split_once(['=', '@']) {
-        return Ok(Position { place: number(&unbracketed(after))?, axis, named: false });
+        return here(number(&unbracketed(after))?);
     }
     if let Ok(place) = number(&unbracketed(bare)) {
-        return Ok(Position { place, axis, named: false });
+        return here(place);
     }
     // Words before the number, or after it.
     let start = bare.find(|c: char| c.is_ascii_digit()).unwrap_or(bare.len());
@@ -272,11 +317,13 @@ pub(super) fn position(text: &str, decimal_comma: bool) -> Result<Position, Unit
     if rest.is_empty() || !prefix_is_words {
         return Err(UnitError::Number(text.chars().take(40).collect()));
     }
-    let rest = match rest.trim_end().rsplit_once([' ', '_']) {
-        Some((before, word)) if axis_of(word).is_some() => before,
-        _ => rest,
+    let (rest, follows) = match rest.trim_end().rsplit_once([' ', '_']) {
+        Some((before, word)) if axis_of(word).is_some() || From::end_of(word).is_some() => (before, true),
+        _ => (rest, false),
     };
-    Ok(Position { place: number(&unbracketed(rest))?, axis, named: start > 0 })
+    let place = number(&unbracketed(rest))?;
+    let named = start > 0 || follows && matches!(place, Coordinate::Number(_));
+    Ok(Position { named, ..Position::at(place, text) })
 }
 
 /// `1.50 [m]` as `1.50 m`.
@@ -315,6 +362,16 @@ mod tests {
         assert_eq!(place("R5"), Coordinate::Number(5.0));
         assert_eq!(place("3-0-0"), Coordinate::Length(0.9144));
         assert_eq!((place("A.P."), place("FP")), (Coordinate::AftPerpendicular, Coordinate::ForePerpendicular));
+        assert_eq!(
+            (place("BL"), place("Base line"), place("0. WL")),
+            (Coordinate::Number(0.0), Coordinate::Number(0.0), Coordinate::Number(0.0))
+        );
+        assert_eq!((place("DWL 4.5 m"), place("0.75m WL")), (Coordinate::Length(4.5), Coordinate::Length(0.75)));
+        for (text, at, end) in [("0 (FP)", 0.0, From::ForePerpendicular), ("20 AP", 20.0, From::AftPerpendicular)] {
+            let found = position(text, false).unwrap();
+            assert_eq!((found.place, found.end), (Coordinate::Number(at), Some(end)));
+        }
+        assert!(position("3. WL", false).unwrap().named && !position("3", false).unwrap().named);
         assert_eq!(position("1,5", true).unwrap().place, Coordinate::Number(1.5));
         assert_eq!(position("WL 3", false).unwrap().axis, Some(Axis::Waterline));
         for text in ["", "deck", "WL", "1.2.3", "abc 3 def", "nan", "inf"] {

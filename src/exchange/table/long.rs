@@ -5,13 +5,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::columns::{Column, Named, Whole, column};
+use super::columns::{Column, Named, Whole, breadths, column};
 use super::fields::decimals;
 use super::outline::{keel_of, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
 use super::ratio::missing_dimensions;
 use super::sections::{decimals_in_metres, refuse_negative};
 use super::settings::Settings;
+use super::sides::{Sides, sides};
 use super::tidy;
 use crate::hull::{OffsetTable, TableForm};
 
@@ -23,11 +24,20 @@ const MOST_DRAUGHTS: f64 = 3.0;
 /// The columns of a header.
 struct Columns {
     all: Vec<Option<Named>>,
+    /// The column of breadths that are not said to be half ones.
+    unsaid: Option<usize>,
 }
 
 impl Columns {
     fn of(header: &[Field]) -> Self {
-        Self { all: header.iter().map(|field| column(&field.text)).collect() }
+        let mut columns = Self { all: header.iter().map(|field| column(&field.text)).collect(), unsaid: None };
+        if columns.find(Column::Y).is_none()
+            && let Some((at, named)) =
+                header.iter().enumerate().find_map(|(at, field)| Some((at, breadths(&field.text)?)))
+        {
+            (columns.all[at], columns.unsaid) = (Some(named), Some(at));
+        }
+        columns
     }
 
     fn find(&self, column: Column) -> Option<(usize, Named)> {
@@ -42,6 +52,14 @@ impl Columns {
     fn indices(&self) -> usize {
         self.all.iter().flatten().filter(|named| named.column == Column::Index).count()
     }
+}
+
+/// What settles whether breadths are half ones.
+pub(super) const HALF_OR_FULL: &str = "Give breadths = \"half\" or breadths = \"full\" in the conventions";
+
+/// Says that breadths are taken as half ones.
+pub(super) fn half_taken(name: &str) -> String {
+    format!("'{name}' does not say whether breadths are half or full: taken as half-breadths")
 }
 
 /// Whether the first row names the columns of points and no kind of curve.
@@ -79,12 +97,16 @@ pub(super) fn read(
     let mut settings = settings.clone();
     units(&columns, &mut settings);
     left_out(header, &columns, problems);
+    if let Some(at) = columns.unsaid.filter(|_| settings.full.is_none()) {
+        problems.warning("W320", header[at].place(), half_taken(header[at].trimmed()), HALF_OR_FULL);
+    }
     let comma = form.decimal_comma;
     let mut points = points(rows, header, &columns, problems)?;
     let digits = points.iter().map(|point| decimals(&point.y.text.replace(',', "."))).max().unwrap_or(0);
     let scaled = fractions(&mut points, &columns, comma, &settings, problems)?;
     distances(&mut points, &columns, comma, &settings, problems);
     waterlines(&mut points, &columns, &settings, problems);
+    one_side(&mut points, comma, problems);
     let curve = if on_waterlines(&points) { "WL" } else { "SEC" };
     problems.note(match curve {
         "WL" => "the points stand on common heights and are read as half-breadths at waterlines".to_owned(),
@@ -161,6 +183,27 @@ fn points(rows: &[Vec<Field>], header: &[Field], columns: &Columns, problems: &m
 fn number(field: &Field, comma: bool) -> Option<f64> {
     let text = field.trimmed();
     if comma { text.replace(',', ".").parse().ok() } else { text.parse().ok() }.filter(|n: &f64| n.is_finite())
+}
+
+/// Leaves the points of one side, with positive half-breadths.
+fn one_side(points: &mut Vec<Point>, comma: bool, problems: &mut Problems) {
+    let place = |point: &Point| {
+        let along = if point.x.is_blank() { &point.station } else { &point.x };
+        Some([number(along, comma)?, number(&point.y, comma)?, number(&point.z, comma)?])
+    };
+    let Some(places) = points.iter().map(place).collect::<Option<Vec<_>>>() else { return };
+    match sides(&places, problems) {
+        Sides::Kept => {}
+        Sides::Turned => {
+            for point in points {
+                point.y.text = point.y.trimmed().trim_start_matches('-').to_owned();
+            }
+        }
+        Sides::Doubled(doubled) => {
+            let mut at = 0..;
+            points.retain(|_| at.next().is_some_and(|k| !doubled.contains(&k)));
+        }
+    }
 }
 
 /// Replaces a plain number by a length in metres.

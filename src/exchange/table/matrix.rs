@@ -11,6 +11,9 @@ use super::settings::Settings;
 use crate::hull::{Rows, SideKind};
 use crate::units::counted;
 
+/// More rows of three numbers are points.
+const LEAST_POINTS: usize = 12;
+
 /// One station, or one ending, of a block.
 #[derive(Debug, Clone, Default)]
 pub(super) struct MatrixRow {
@@ -70,7 +73,9 @@ fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Fi
         part.iter().filter(|row| length(row) > width || row.len() < part[0].len() && row.len() < width).collect();
     // As many fields again as the header has: every number was cut in two at its decimal comma.
     let doubled = wrong.iter().filter(|row| row.len() > width && row.len() + 3 >= 2 * width).count();
-    if doubled > 0 && 2 * doubled >= part.len() - 1 {
+    // Numbers with decimal points are not cut at commas.
+    let whole = wrong.iter().flat_map(|row| row.iter()).all(|field| !field.text.contains('.'));
+    if doubled > 0 && 2 * doubled >= part.len() - 1 && whole {
         let message = format!(
             "{doubled} rows have about twice as many fields as the header ({width}), the first of them {}: decimal commas between \
              separators that are commas too",
@@ -261,6 +266,50 @@ fn is_positions(field: &Field, stations: bool) -> bool {
     side_of(text).is_none() && (crossed || named)
 }
 
+/// Whether more headers name buttocks than waterlines. The base line is none of these.
+fn are_buttocks<'f>(heads: impl Iterator<Item = &'f Field>) -> bool {
+    let axes = heads.filter(|head| side_of(&head.text).is_none()).filter_map(|head| axis_of(&head.text));
+    let (buttocks, others): (Vec<Axis>, Vec<Axis>) = axes.partition(|axis| *axis == Axis::Buttock);
+    buttocks.len() > others.len()
+}
+
+/// Whether a header stands over sums and multipliers (Simpson's rule), which are no offsets.
+fn is_reckoning(field: &Field) -> bool {
+    const WORDS: [&str; 13] = [
+        "sm",
+        "simpson",
+        "simpsons",
+        "multiplier",
+        "multipliers",
+        "sum",
+        "sums",
+        "total",
+        "totals",
+        "product",
+        "products",
+        "f(a)",
+        "f(v)",
+    ];
+    let name = field.trimmed().to_lowercase().replace(['.', '\'', '\u{2019}'], "");
+    WORDS.contains(&name.as_str())
+        || name.split_whitespace().next().is_some_and(|word| WORDS.contains(&word)) && !field.text.contains('=')
+}
+
+/// Without columns and rows of sums and multipliers, which are named.
+fn without_reckoning(fields: Vec<Vec<Field>>, problems: &mut Problems) -> Vec<Vec<Field>> {
+    let columns: Vec<bool> = fields[0].iter().enumerate().map(|(j, head)| j > 0 && is_reckoning(head)).collect();
+    let is_row = |i: usize, row: &[Field]| i > 0 && row.first().is_some_and(is_reckoning);
+    let left_out = fields[0].iter().zip(&columns).filter(|(_, out)| **out).map(|(head, _)| head);
+    let rows = fields.iter().enumerate().filter(|(i, row)| is_row(*i, row)).map(|(_, row)| &row[0]);
+    for head in left_out.chain(rows) {
+        let message = "left out: sums and multipliers are no offsets".to_owned();
+        problems.warning("W332", head.place(), message, "");
+    }
+    let kept = fields.into_iter().enumerate().filter(|(i, row)| !is_row(*i, row));
+    let without = |row: Vec<Field>| row.into_iter().zip(&columns).filter(|(_, out)| !**out).map(|(f, _)| f).collect();
+    kept.map(|(_, row)| without(row)).collect()
+}
+
 fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<Block> {
     let (fields, trailing) = rectangle(&piece.rows, problems)?;
     if fields.len() < 2 || fields[0].len() < 2 {
@@ -269,12 +318,19 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
         problems.error("E300", &fields[0][0], message, "A matrix has a row of headers and rows of offsets below it");
         return None;
     }
+    let fields = without_reckoning(fields, problems);
+    if fields.len() < 2 || fields[0].len() < 2 {
+        return None;
+    }
     if is_bare(&fields) {
-        let message =
-            "half-breadths alone: no field of the first row is a word, and its numbers are no positions".to_owned();
-        let remedy = "Write the heights of the waterlines above them, the distances of the stations before them, and 'x [m]' \
-                      where the two meet";
-        problems.error("E300", &fields[0][0], message, remedy);
+        let (message, remedy) = if fields[0].len() == 3 && fields.len() > LEAST_POINTS {
+            ("three columns of numbers, and no word says what they are", "Write a header above them, as x,y,z")
+        } else {
+            let remedy = "Write the heights of the waterlines above them, the distances of the stations before them, and 'x [m]' \
+                          where the two meet";
+            ("half-breadths alone: no field of the first row is a word, and its numbers are no positions", remedy)
+        };
+        problems.error("E300", &fields[0][0], message.to_owned(), remedy);
         return None;
     }
     let (rows, reason) = orientation(&fields, settings, problems);
@@ -295,7 +351,7 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
         if rows == Rows::Waterlines { says.rows.filter(|a| !a.is_station()).or(says.columns) } else { says.columns };
     let buttocks = across == Some(Axis::Buttock)
         || across.is_none() && piece.texts.iter().any(|text| axis_of(&text.text) == Some(Axis::Buttock))
-        || heads.iter().skip(left + 1).any(|f| axis_of(&f.text) == Some(Axis::Buttock) && side_of(&f.text).is_none());
+        || are_buttocks(heads.iter().skip(left + 1));
     let mut block = Block {
         corner,
         first: heads[left].clone(),

@@ -11,10 +11,13 @@ mod assemble;
 mod blanks;
 mod boat;
 mod body;
+mod bottom;
 mod britfair;
 mod checks;
+mod chines;
 mod columns;
 mod delftship;
+mod ends;
 mod fields;
 mod formats;
 mod freeship;
@@ -26,6 +29,8 @@ mod lines;
 mod long;
 mod matrix;
 mod michlet;
+mod numbering;
+mod obeyed;
 mod outline;
 mod pairs;
 mod pdstrip;
@@ -41,6 +46,8 @@ mod settings;
 mod several;
 mod sheets;
 mod sidecar;
+mod sides;
+mod thousands;
 mod tidy;
 mod triples;
 mod unsupported;
@@ -125,7 +132,12 @@ fn name_faults(file: &str, table: &OffsetTable) -> Vec<TableProblem> {
 /// The same without a look at the names.
 fn read_any(name: &str, bytes: &[u8], sidecar: Vec<(&str, &str)>) -> Result<ReadTable, Vec<TableProblem>> {
     if let Some(body) = read_body(name, bytes, sidecar.iter().copied()) {
-        return body.and_then(ReadBody::table);
+        return body.and_then(ReadBody::table).map(|mut read| {
+            let mut problems = Problems::new(name);
+            chines::mark(&mut read.table, &mut problems);
+            read.notes.extend(problems.finish().unwrap_or_default());
+            read
+        });
     }
     if let Some(read) = lines::read(name, bytes, &sidecar) {
         return read;
@@ -141,12 +153,19 @@ fn read_any(name: &str, bytes: &[u8], sidecar: Vec<(&str, &str)>) -> Result<Read
         );
         return Err(problems.finish().err().unwrap_or_default());
     }
-    if let Some(read) = formats::read(name, bytes, sidecar.first().copied()) {
-        return read;
-    }
     let mut settings = Settings::default();
-    for (name, text) in sidecar {
+    for (name, text) in &sidecar {
         sidecar::read(name, text, &mut settings, &mut problems);
+    }
+    if let Some(read) = formats::read(name, bytes, sidecar.first().copied(), &settings) {
+        let mut read = match (read, problems.any_errors()) {
+            // What is wrong with the file beside it comes first.
+            (_, true) => return Err(problems.finish().err().unwrap_or_default()),
+            (Err(faults), false) => return Err(faults),
+            (Ok(read), false) => read,
+        };
+        read.notes.extend(problems.finish()?);
+        return Ok(read);
     }
     let mut table = match problems.any_errors() {
         // Without its conventions the table would give misleading problems.
@@ -209,6 +228,7 @@ fn of_grid(
         field.text = unguarded(&field.text).to_owned();
     }
     triples::settle(&mut grid.rows, problems);
+    thousands::settle(&mut grid.rows, grid.separator, settings, problems);
     let layout = settings.layout.unwrap_or_else(|| {
         if tidy::is_tidy(&grid.rows) || long::is_long(&grid.rows) {
             TableLayout::Tidy
@@ -239,7 +259,9 @@ fn of_grid(
         }
         TableLayout::Tidy if long::is_long(&grid.rows) => {
             problems.note("one point a row".to_owned());
-            long::read(&grid.rows, form, settings, problems)?
+            let mut table = long::read(&grid.rows, form, settings, problems)?;
+            chines::mark(&mut table, problems);
+            table
         }
         TableLayout::Tidy => {
             problems.note("one offset a row".to_owned());

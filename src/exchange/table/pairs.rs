@@ -5,8 +5,9 @@
 
 use super::assemble::TableReader;
 use super::header::{Corner, Position, position};
+use super::numbering::origin;
 use super::problem::{Field, Problems};
-use super::scale::{Size, ends_from_midship, origin, units};
+use super::scale::{Size, ends_from_midship, units};
 use super::settings::Settings;
 use crate::hull::{
     Cell, Kept, Marks, OffsetTable, Order, OutlinePoint, StationOffsets, TableForm, TableLayout, Written,
@@ -74,11 +75,12 @@ pub(super) fn read(
     let z = Size::of(points.iter().flatten().map(|(_, z)| z), false);
     let positions: Vec<Position> = heads.iter().map(|(_, p)| *p).collect();
     let corner = Corner { rows: Some(super::header::Axis::Station), ..Corner::default() };
-    let (origin, numbers) = origin(settings, corner, &positions, y.largest, problems);
-    let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], numbers, problems);
-    let origin = ends_from_midship(origin, settings, &positions, units.x, problems);
-    let form = TableForm { origin, layout: TableLayout::Pairs, ..form };
+    let origin = origin(settings, corner, &positions, y.largest, problems);
+    let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], origin.numbers, problems);
+    let datum = ends_from_midship(origin.datum, settings, &positions, units.x, problems);
+    let form = TableForm { origin: datum, layout: TableLayout::Pairs, ..form };
     let mut reader = TableReader::new(settings, form, units, problems);
+    reader.length = reader.length.or(origin.length);
     let xs: Vec<f64> = positions.into_iter().map(|p| reader.along(p)).collect();
     let fields: Vec<Field> = heads.iter().map(|(field, _)| field.clone()).collect();
     let mut table = OffsetTable::default();

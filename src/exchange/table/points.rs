@@ -10,12 +10,16 @@ use std::collections::BTreeSet;
 
 use super::columns::{self, Column};
 use super::fields::{Separator, TextLine, finish, lines};
+use super::header::From;
 use super::outline::{point, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
 use super::ratio::separator;
+use super::scale::LARGEST_HALF_BREADTH;
 use super::sections::{Body, Section, XOrigin, refuse_negative, table};
+use super::settings::Settings;
+use super::sides::{Sides, sides};
 use super::{ReadTable, TableProblem};
-use crate::hull::{OutlinePoint, StatedParticulars};
+use crate::hull::OutlinePoint;
 
 /// Points of one section are at one x when they are so near \[m\].
 const SAME_X: f64 = 1e-6;
@@ -77,6 +81,14 @@ struct PointRow<'a> {
 /// # Errors
 /// Every problem of the file.
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
+    read_with(name, text, &Settings::default())
+}
+
+/// The same with the unit, and the origin of x, of the conventions.
+///
+/// # Errors
+/// Every problem of the file.
+pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
     let mark = head(text).map_or(',', |(mark, _)| mark);
     let pointed = pointed(text, mark);
@@ -91,6 +103,8 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     };
     let mut columns: Vec<(Column, usize, f64)> = Vec::new();
     let mut origin = XOrigin::Unknown;
+    let is_declared =
+        head.fields.iter().filter_map(|field| columns::column(field.text)).any(|named| named.unit.is_some());
     for (index, field) in head.fields.iter().enumerate() {
         let Some((kind, unit, from_ap)) = column(field.text) else {
             let message = "a column is station, x, loop, point, y or z, perhaps with a unit".to_owned();
@@ -115,11 +129,40 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     if problems.any_errors() {
         return finish(problems, None);
     }
-    let rows: Vec<PointRow<'_>> =
+    let mut rows: Vec<PointRow<'_>> =
         lines.iter().filter_map(|line| row(line, head.fields.len(), &columns, &mut problems)).collect();
+    let places: Vec<[f64; 3]> = rows.iter().map(|row| [row.x, row.point.y, row.point.z]).collect();
+    match sides(&places, &mut problems) {
+        Sides::Kept => {}
+        Sides::Turned => rows.iter_mut().for_each(|row| row.point.y = row.point.y.abs()),
+        Sides::Doubled(doubled) => {
+            let mut at = 0..;
+            rows.retain(|_| at.next().is_some_and(|k| !doubled.contains(&k)));
+        }
+    }
+    let stated = [settings.x_units.or(settings.units), settings.units, settings.z_units.or(settings.units)];
+    if !is_declared && stated.iter().any(Option::is_some) {
+        let [x, y, z] = stated.map(|unit| unit.map_or(1.0, |unit| unit.metres(1.0)));
+        for row in &mut rows {
+            row.x *= x;
+            (row.point.y, row.point.z) = (row.point.y * y, row.point.z * z);
+        }
+    }
+    let is_declared = is_declared || stated.iter().any(Option::is_some);
+    if settings.stations.is_some_and(|scale| scale.from == From::AftPerpendicular) {
+        origin = XOrigin::AfterPerpendicular;
+    }
+    let mut unit = columns.iter().find(|(kind, _, _)| *kind == Column::Y).map_or(1.0, |(_, _, unit)| *unit);
+    if !is_declared && are_millimetres(&rows) {
+        problems.note("no unit is declared; the points are taken as millimetres".to_owned());
+        unit = 1e-3;
+        for row in &mut rows {
+            row.x *= unit;
+            (row.point.y, row.point.z) = (row.point.y * unit, row.point.z * unit);
+        }
+    }
     let sections = group(&rows, &mut problems);
-    let unit = columns.iter().find(|(kind, _, _)| *kind == Column::Y).map_or(1.0, |(_, _, unit)| *unit);
-    let stated = StatedParticulars::default();
+    let stated = settings.stated;
     table(Body { name: String::new(), stated, sections, origin, unit }, problems)
 }
 
@@ -158,6 +201,12 @@ fn row<'a>(
     let station = field(Column::Station).map(|(field, _)| field.text);
     let place = FilePosition::row(line.row);
     Some(PointRow { station, x: x?, branch: branch?, order: order?, point: point(y?, z?), place })
+}
+
+/// Whether points without a unit are beyond any ship in metres.
+fn are_millimetres(rows: &[PointRow<'_>]) -> bool {
+    let largest = |of: fn(&PointRow<'_>) -> f64| rows.iter().map(|row| of(row).abs()).fold(0.0, f64::max);
+    largest(|row| row.point.y) > LARGEST_HALF_BREADTH
 }
 
 /// Sections of rows that follow each other.

@@ -1,17 +1,17 @@
 //! Units and origins: from what a table declares, and else from the size of its numbers.
 
-use super::header::{Coordinate, Corner, From, Position};
+use super::header::{Coordinate, Corner, Position};
 use super::problem::{Field, FilePosition, Problems};
-use super::settings::{Settings, StationScale};
+use super::settings::Settings;
 use crate::hull::StationDatum;
 use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
 
 /// No half-breadth is larger \[m\]; larger plain numbers are millimetres.
-const LARGEST_HALF_BREADTH: f64 = 120.0;
+pub(super) const LARGEST_HALF_BREADTH: f64 = 120.0;
 /// No waterline is higher \[m\].
-const LARGEST_HEIGHT: f64 = 120.0;
+pub(super) const LARGEST_HEIGHT: f64 = 120.0;
 /// No hull is longer \[m\].
-const LARGEST_LENGTH: f64 = 1000.0;
+pub(super) const LARGEST_LENGTH: f64 = 1000.0;
 /// Heights and lengths in half-breadths, as most ships have them.
 const USUAL_HEIGHT: f64 = 1.0;
 const USUAL_LENGTH: f64 = 12.0;
@@ -200,91 +200,4 @@ pub(super) fn ends_from_midship(
     };
     problems.warning("W320", FilePosition::FILE, message, "Give Lpp in the conventions");
     StationDatum::Shifted { offset, sign: 1.0 }
-}
-
-/// Where stations are counted from, and how far apart they are.
-pub(super) fn origin(
-    settings: &Settings,
-    corner: Corner,
-    heads: &[Position],
-    largest_half_breadth: f64,
-    problems: &mut Problems,
-) -> (StationDatum, bool) {
-    use super::header::Axis;
-    let length = settings.stated.length_between_perpendiculars;
-    let plain: Vec<f64> =
-        heads.iter().filter_map(|p| if let Coordinate::Number(n) = p.place { Some(n) } else { None }).collect();
-    let (low, high) = plain.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
-    let named = heads.iter().filter(|p| p.named || p.axis == Some(Axis::Station)).count();
-    let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
-    let scale = settings.stations.unwrap_or_else(|| {
-        let numbers = match says {
-            Some(Axis::Station) if corner.unit.is_none() => true,
-            Some(Axis::X) => false,
-            _ if 2 * named > heads.len() => true,
-            // Without words, or with a unit beside them: a hull that would be shorter than it is broad counts its
-            // stations.
-            _ => {
-                let length = corner.unit.map_or(high - low, |unit| unit.metres(high - low));
-                plain.len() > 1 && length < 2.0 * largest_half_breadth
-            }
-        };
-        StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers }
-    });
-    if plain.is_empty() || !scale.numbers && scale.from == From::AftPerpendicular {
-        return (StationDatum::Lengths, scale.numbers);
-    }
-    if !scale.numbers {
-        let (offset, sign) = match (scale.from, length) {
-            (From::Midship, Some(length)) => (0.5 * length, 1.0),
-            (From::ForePerpendicular, Some(length)) => (length, -1.0),
-            (From::ForePerpendicular, None) => {
-                let message =
-                    "distances count from FP and L_PP is not known: x is 0 at FP and negative aft of it".to_owned();
-                problems.warning("W320", FilePosition::FILE, message, "Give Lpp in the conventions");
-                (0.0, -1.0)
-            }
-            // `ends_from_midship` finds AP, once the unit is known.
-            _ => (0.0, 1.0),
-        };
-        if length.is_some() {
-            let place = if sign > 0.0 { "midship" } else { "FP" };
-            problems.note(format!("distances count from {place}, which is {offset} m forward of AP"));
-        }
-        return (StationDatum::Shifted { offset, sign }, false);
-    }
-    // Twenty or ten spaces are what drawings have; others have to be said.
-    let usual = [20.0, 10.0].into_iter().find(|&n| plain.iter().any(|&p: &f64| (p - n).abs() < 1e-9) && high < n + 2.0);
-    let spaces = settings.spaces.or(corner.spaces).or(usual);
-    let spacing = match (settings.station_spacing, length, spaces) {
-        (Some(spacing), _, _) => {
-            problems.note(format!("stations are numbered; {spacing} m from one number to the next"));
-            spacing
-        }
-        (None, Some(length), Some(spaces)) => {
-            problems.note(format!("stations are numbered; {spaces} spaces in L_PP of {length} m"));
-            length / spaces
-        }
-        _ => {
-            let message =
-                "stations are numbered and neither L_PP nor their spacing is known: taken as 1 m apart".to_owned();
-            problems.warning("W320", FilePosition::FILE, message, "Give Lpp, or station_spacing, in the conventions");
-            1.0
-        }
-    };
-    let names_end = |p: &Position| matches!(p.place, Coordinate::AftPerpendicular | Coordinate::ForePerpendicular);
-    if settings.stations.is_none() && corner.from.is_none() && !heads.iter().any(names_end) {
-        let message = "stations are numbered, and nothing says from which end: 0 is taken as AP. From FP the hull is turned about, and \
-                       LCB changes its sign";
-        let remedy = "Give stations = \"numbers from AP\" or \"numbers from FP\" in the conventions";
-        problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);
-    }
-    if scale.from == From::ForePerpendicular {
-        // Without L_PP the last number is AP.
-        let from_fp = length.or(spaces.map(|n| n * spacing)).unwrap_or(high * spacing);
-        problems.note(format!("station 0 is FP, {from_fp} m forward of AP"));
-        return (StationDatum::Numbers { offset: from_fp, spacing: -spacing }, true);
-    }
-    let offset = if scale.from == From::Midship { 0.5 * length.unwrap_or(0.0) } else { 0.0 };
-    (StationDatum::Numbers { offset, spacing }, true)
 }

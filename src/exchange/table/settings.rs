@@ -46,7 +46,7 @@
 //!
 //! The keys of `[table]` may stand in comment lines of the table too: `# units = mm`, or several: `# Lpp = 20 m, B = 6
 //! m`; capital and small letters are the same. A comment that is no `key = value` with a single word before the sign is
-//! a comment.
+//! a comment, but for what it says of stations: `# Stations 3 ft apart`, `# Stations numbered from FP`.
 
 use super::header::From;
 use super::problem::{Field, Problems};
@@ -171,7 +171,10 @@ impl Settings {
     /// Takes the settings among the comment lines of a table.
     pub(super) fn comments(&mut self, comments: &[(usize, String)], problems: &mut Problems) {
         for (row, comment) in comments.iter().flat_map(|(row, comment)| parts(comment).map(move |part| (row, part))) {
-            let Some((key, value)) = comment.split_once('=') else { continue };
+            let Some((key, value)) = comment.split_once('=') else {
+                self.prose(comment, problems);
+                continue;
+            };
             let (key, value) = (key.trim(), value.trim().trim_matches('"'));
             if key.is_empty() || value.is_empty() || key.contains(|c: char| !c.is_alphanumeric() && c != '_') {
                 continue;
@@ -191,6 +194,33 @@ impl Settings {
                 }
                 (None, None) => {}
             }
+        }
+    }
+
+    /// Takes what a sentence says of stations: "Stations 3 ft apart", "numbered from the forward perpendicular".
+    fn prose(&mut self, comment: &str, problems: &mut Problems) {
+        let lower = comment.to_lowercase();
+        if !["station", "frame", "ordinate"].iter().any(|word| lower.contains(word)) {
+            return;
+        }
+        if let Some((before, _)) = lower.split_once(" apart").filter(|_| self.station_spacing.is_none()) {
+            let words: Vec<&str> = before.split_whitespace().collect();
+            let spacing = (1..=2)
+                .rev()
+                .filter_map(|count| words.get(words.len().checked_sub(count)?..))
+                .find_map(|words| parse_length(&words.join(" ")).ok());
+            if let Some(spacing) = spacing.filter(|spacing| *spacing > 0.0 && spacing.is_finite()) {
+                self.station_spacing = Some(spacing);
+                problems.note(format!("stations are {spacing} m apart by '{}'", comment.trim()));
+            }
+        }
+        let from = lower.split_once(" from ").and_then(|(before, after)| {
+            let end = From::end_of(after)?;
+            before.contains("number").then_some(end)
+        });
+        if let Some(from) = from.filter(|_| self.stations.is_none()) {
+            self.stations = Some(StationScale { from, numbers: true });
+            problems.note(format!("stations are numbered by '{}'", comment.trim()));
         }
     }
 

@@ -19,8 +19,9 @@ use super::assemble::{SAME, TableReader};
 use super::columns::{Column, column};
 use super::grid::{MOST_CELLS, MOST_LINES};
 use super::header::{Axis, Corner, Position, position, unit_of};
+use super::numbering::origin;
 use super::problem::{Field, FilePosition, Problems};
-use super::scale::{Size, origin, units};
+use super::scale::{Size, units};
 use super::settings::{Settings, nearest};
 use super::write::Writer;
 use crate::hull::{
@@ -131,10 +132,11 @@ pub(super) fn read(
         unit: header.iter().find_map(|f| unit_of(f.trimmed())),
         ..Corner::default()
     };
-    let (origin, numbers) = origin(settings, corner, &positions, y.largest, problems);
-    let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], numbers, problems);
-    let form = TableForm { origin, layout: TableLayout::Tidy, ..form };
+    let origin = origin(settings, corner, &positions, y.largest, problems);
+    let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], origin.numbers, problems);
+    let form = TableForm { origin: origin.datum, layout: TableLayout::Tidy, ..form };
     let mut reader = TableReader::new(settings, form, units, problems);
+    reader.length = reader.length.or(origin.length);
     let mut table = OffsetTable::default();
     let mut read: Vec<(&Record<'_>, f64, Option<f64>, Cell)> = Vec::with_capacity(records.len());
     for record in &records {

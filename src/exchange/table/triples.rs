@@ -9,6 +9,8 @@ use crate::units::counted;
 
 /// Signs between feet, inches and eighths.
 const SIGNS: [char; 4] = ['.', ' ', '/', ':'];
+/// Vulgar fractions of an inch.
+const FRACTIONS: [char; 7] = ['\u{bd}', '\u{bc}', '\u{be}', '\u{215b}', '\u{215c}', '\u{215d}', '\u{215e}'];
 /// Fewer cells prove no notation.
 const LEAST: usize = 3;
 
@@ -29,8 +31,65 @@ fn is_decimal(field: &Field) -> bool {
     field.text.contains('.') && field.trimmed().parse::<f64>().is_ok()
 }
 
+/// `2-3` for 2-3-0 where other cells of the table have feet and inches with a fraction, as `2-3 1/2`; and the fraction before
+/// the sign of inches where it stands behind it.
+fn fractions(rows: &mut [Vec<Field>], problems: &mut Problems) {
+    let is_fraction = |text: &str| {
+        text.ends_with(FRACTIONS) || text.split_once('/').is_some_and(|(a, b)| are_digits(a) && are_digits(b))
+    };
+    let parts = |text: &str| -> Option<(String, String)> {
+        let (feet, inches) = text.trim().trim_matches(is_around_fraction).split_once('-')?;
+        Some((feet.to_owned(), inches.trim().to_owned()))
+    };
+    let with = |text: &str| {
+        parts(text).is_some_and(|(feet, inches)| {
+            let inner = inches
+                .split_once(' ')
+                .map_or_else(|| inches.ends_with(FRACTIONS), |(whole, rest)| are_digits(whole) && is_fraction(rest));
+            are_digits(&feet) && inner
+        })
+    };
+    let without =
+        |text: &str| parts(text).filter(|(feet, inches)| are_digits(feet) && are_digits(inches) && inches.len() < 3);
+    for field in rows.iter_mut().flatten() {
+        if let Some((before, after)) = field.text.split_once('"')
+            && is_fraction(after.trim())
+            && before.ends_with(|c: char| c.is_ascii_digit())
+        {
+            field.text = format!("{before} {}\"", after.trim());
+        }
+    }
+    let head = rows.iter().position(|row| !row.is_empty()).map_or(0, |at| at + 1);
+    if rows.iter().skip(head).flatten().filter(|field| with(&field.text)).count() < LEAST {
+        return;
+    }
+    let mut count = 0;
+    for field in rows.iter_mut().skip(head).flatten() {
+        if let Some((feet, inches)) = without(&field.text) {
+            let core = format!("{feet}-{inches}");
+            field.text = field.text.replacen(&core, &format!("{core}-0"), 1);
+            count += 1;
+        }
+    }
+    if count > 0 {
+        problems.note(format!(
+            "{} of feet and inches alone among others with fractions: read as such",
+            counted(count, "cell")
+        ));
+    }
+}
+
+fn are_digits(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
+}
+
+fn is_around_fraction(c: char) -> bool {
+    matches!(c, '(' | ')' | '!' | 'K' | 'T')
+}
+
 /// Gives the cells dashes where most cells of the table have three numbers with another sign between them.
 pub(super) fn settle(rows: &mut [Vec<Field>], problems: &mut Problems) {
+    fractions(rows, problems);
     let Some(head) = rows.iter().position(|row| !row.is_empty()) else { return };
     let of = |sign: char| rows.iter().flatten().filter(move |field| dashed(&field.text, sign).is_some());
     let Some((count, sign)) = SIGNS.map(|sign| (of(sign).count(), sign)).into_iter().max_by_key(|(count, _)| *count)

@@ -4,7 +4,13 @@
 //! a text of that kind begins with. One message about the kind helps more than one about each of its lines.
 
 /// First bytes of a kind of file.
-const FIRST_BYTES: [(&[u8], &str); 11] = [
+const FIRST_BYTES: [(&[u8], &str); 17] = [
+    (b"OFF\n", "a mesh (OFF)"),
+    (b"OFF\r", "a mesh (OFF)"),
+    (b"$MeshFormat", "a mesh (gmsh MSH)"),
+    (b"# vtk DataFile", "a mesh (VTK)"),
+    (b"<VTKFile", "a mesh (VTK)"),
+    (b"ply\r", "a mesh (PLY)"),
     (b"3D Geometry File Format", "a Rhinoceros file (3dm)"),
     (b"\x1f\x8b", "a file compressed by gzip"),
     (b"BZh", "a file compressed by bzip2"),
@@ -28,6 +34,16 @@ pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {
         return Some(kind);
     }
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]);
+    let lower = start.trim_start().to_ascii_lowercase();
+    if lower.starts_with("<!doctype html") || lower.starts_with("<html") {
+        return Some("a web page (HTML)");
+    }
+    if lower.starts_with("<?xml") && lower.contains("<vtkfile") {
+        return Some("a mesh (VTK)");
+    }
+    if lower.starts_with('{') && lower.contains("\"asset\"") {
+        return Some("a scene (glTF as text; GLB is read)");
+    }
     if start.trim_start().starts_with('{') {
         return Some("JSON (of a hull? hydro, section, inspect and report read those)");
     }

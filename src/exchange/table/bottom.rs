@@ -1,0 +1,128 @@
+//! What a table does not show of the bottom of its hull: below the lowest waterline, or below the first points of sections.
+
+use super::assemble::SAME;
+use super::problem::{FilePosition, Problems};
+use crate::hull::{OffsetTable, StationOffsets};
+use crate::units::counted;
+
+/// Part of the volume that an unknown bottom may have before it is a warning.
+const SHARE: f64 = 0.01;
+
+/// Least waterplane of a hull that goes on below it, over the greatest.
+const WATERPLANE: f64 = 0.01;
+
+/// Least half-breadth of the first point of a section that does not close, over its greatest.
+const OPEN: f64 = 0.05;
+
+/// Slopes dz/dy up to this are those of a bottom that is level.
+const LEVEL: f64 = 0.1;
+
+/// Says what is not known of the bottom, where it may be more than [`SHARE`] of the volume.
+pub(super) fn unknown(table: &OffsetTable, problems: &mut Problems) {
+    if table.point_count() > 0 {
+        return below_points(table, problems);
+    }
+    let remedy = "Give a row or a column 'keel' with its heights and one 'flat of bottom', or the lowest waterlines";
+    let Some(lowest) = table.waterlines.first().copied() else { return };
+    let areas = areas(table);
+    let greatest = areas.iter().map(|[_, area]| *area).fold(0.0, f64::max);
+    if areas[0][1] <= WATERPLANE * greatest {
+        return;
+    }
+    if lowest < -SAME && !table.stations.iter().any(has_keel) {
+        let message = format!(
+            "the lowest waterline is at {lowest} m and has {:.0} % of the greatest waterplane: what is below it does not count",
+            100.0 * areas[0][1] / greatest
+        );
+        return problems.warning("W315", FilePosition::FILE, message, remedy);
+    }
+    let draught = table.stated.draught.filter(|draught| *draught > lowest);
+    let above = volume(&areas, draught.unwrap_or(f64::INFINITY));
+    let of = draught.map_or_else(|| "the volume".to_owned(), |draught| format!("the volume up to T {draught} m"));
+    if table.stations.iter().any(has_keel) {
+        let below = 0.5 * to_keel(table, lowest);
+        if below > SHARE * (below + above) {
+            let message = format!(
+                "between the keel and the lowest waterline, {lowest} m, the sections are not known: straight to the flat of bottom, where \
+                 one is given. Full ones would have up to {:.1} % of {of} more",
+                100.0 * below / (below + above)
+            );
+            problems.warning("W315", FilePosition::FILE, message, remedy);
+        }
+        return;
+    }
+    let below = lowest * areas[0][1];
+    if lowest > SAME && below > SHARE * (below + above) {
+        let message = format!(
+            "the lowest waterline is {lowest} m above the base line, and no keel is given: what is below it does not count, and is \
+             up to {:.1} % of {of}",
+            100.0 * below / (below + above)
+        );
+        problems.warning("W315", FilePosition::FILE, message, remedy);
+    }
+}
+
+fn has_keel(station: &StationOffsets) -> bool {
+    station.keel_height.is_some() || station.flat_of_bottom.is_some()
+}
+
+fn trapezoids(points: &[[f64; 2]]) -> f64 {
+    points.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum()
+}
+
+/// Heights with half of the waterplanes there.
+fn areas(table: &OffsetTable) -> Vec<[f64; 2]> {
+    let area = |(j, &z): (usize, &f64)| -> [f64; 2] {
+        let breadths = table.stations.iter().map(|s| [s.station.x, s.half_breadth(j).unwrap_or(0.0)]);
+        [z, trapezoids(&breadths.collect::<Vec<_>>())]
+    };
+    table.waterlines.iter().enumerate().map(area).collect()
+}
+
+/// Half of the volume between the lowest waterline and a height.
+fn volume(areas: &[[f64; 2]], top: f64) -> f64 {
+    let part = |pair: &[[f64; 2]]| {
+        let ([low, first], [high, second]) = (pair[0], pair[1]);
+        let until = high.min(top).max(low);
+        let share = (until - low) / (high - low);
+        0.5 * (until - low) * (first + first + share * (second - first))
+    };
+    areas.windows(2).map(part).sum()
+}
+
+/// Half of what plumb sides have between the keel and the lowest waterline, beyond the flats of bottom.
+fn to_keel(table: &OffsetTable, lowest: f64) -> f64 {
+    let below = |station: &StationOffsets| {
+        let depth = station.keel_height.map_or(0.0, |keel| (lowest - keel).max(0.0));
+        let flat = station.flat_of_bottom.unwrap_or(0.0);
+        [station.station.x, depth * (station.half_breadth(0).unwrap_or(0.0) - flat).max(0.0)]
+    };
+    trapezoids(&table.stations.iter().map(below).collect::<Vec<_>>())
+}
+
+/// Sections as points that begin beside the centreplane and rise from there: what is below their first points is open.
+fn below_points(table: &OffsetTable, problems: &mut Problems) {
+    let is_open = |station: &&StationOffsets| {
+        let Some([first, second, ..]) = station.outlines.first().map(Vec::as_slice) else { return false };
+        let greatest = station.outlines.iter().flatten().map(|p| p.y).fold(0.0, f64::max);
+        let closed =
+            station.flat_of_bottom.is_some() || station.half_breadths.iter().any(|cell| cell.value().is_some());
+        let rises = second.z - first.z > LEVEL * (second.y - first.y).abs();
+        !closed && first.y > OPEN * greatest && rises
+    };
+    let open: Vec<&StationOffsets> = table.stations.iter().filter(is_open).collect();
+    if let Some(first) = open.first()
+        && 4 * open.len() > table.stations.len()
+    {
+        let point = first.outlines[0][0];
+        let message = format!(
+            "{} begin beside the centreplane and rise from there, as that at x = {:.3} m, whose first point is ({:.3}, {:.3}): what \
+             is below does not count, but for a level line to the centreplane",
+            counted(open.len(), "section"),
+            first.station.x,
+            point.y,
+            point.z
+        );
+        problems.warning("W315", FilePosition::FILE, message, "Begin each section on the centreplane");
+    }
+}

@@ -1,0 +1,258 @@
+//! Where stations are counted from, and how far apart they are: distances, or numbers with AP and FP among them.
+
+use super::header::{Axis, Coordinate, Corner, From, Position};
+use super::problem::{FilePosition, Problems};
+use super::settings::{Settings, StationScale};
+use crate::hull::StationDatum;
+
+/// Spaces between perpendiculars that drawings have.
+const USUAL_SPACES: [f64; 2] = [20.0, 10.0];
+
+/// A distance from the last station to a perpendicular of so many usual ones shows that the stations are numbered.
+const JUMP: f64 = 3.0;
+
+/// The positions of the stations of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Origin {
+    pub(super) datum: StationDatum,
+    /// Whether they are numbers, and no distances.
+    pub(super) numbers: bool,
+    /// Distance between perpendiculars by the numbers of these \[m\].
+    pub(super) length: Option<f64>,
+}
+
+/// The plain number of a position.
+fn plain(position: &Position) -> Option<f64> {
+    if let Coordinate::Number(number) = position.place { Some(number) } else { None }
+}
+
+/// Positions in the order of the file, each once.
+fn distinct(heads: &[Position]) -> Vec<Position> {
+    let mut found: Vec<Position> = Vec::new();
+    for head in heads {
+        if !found.iter().any(|known| known.place == head.place) {
+            found.push(*head);
+        }
+    }
+    found
+}
+
+/// The number of a perpendicular among numbered stations: the one beside its name, else the whole number between its
+/// neighbours, or beyond its only one.
+fn number_of(heads: &[Position], end: From) -> Option<f64> {
+    let at = heads.iter().position(|head| head.end == Some(end))?;
+    if let Some(number) = plain(&heads[at]) {
+        return Some(number);
+    }
+    // A neighbour, and the one beyond it.
+    let pair = |numbers: &mut dyn Iterator<Item = f64>| numbers.next().map(|near| (near, numbers.next()));
+    let before = pair(&mut heads[..at].iter().rev().filter_map(plain));
+    let after = pair(&mut heads[at + 1..].iter().filter_map(plain));
+    let beyond = |(near, far): (f64, Option<f64>)| {
+        let rises = near > far?;
+        Some(if rises { (near + 1e-9).floor() + 1.0 } else { (near - 1e-9).ceil() - 1.0 })
+    };
+    match (before, after) {
+        (Some((a, _)), Some((b, _))) => {
+            let whole = (0.5 * (a + b)).round();
+            (a.min(b) < whole && whole < a.max(b)).then_some(whole)
+        }
+        (Some(only), None) | (None, Some(only)) => beyond(only),
+        (None, None) => None,
+    }
+}
+
+/// Whether AP and FP stand among numbers: as distances one of them would be far from its neighbours, or nowhere.
+fn shows_numbers(heads: &[Position], length: Option<f64>) -> bool {
+    let [aft, fore] = [From::AftPerpendicular, From::ForePerpendicular].map(|end| number_of(heads, end));
+    let unwritten = |end: Coordinate| heads.iter().any(|head| head.place == end);
+    let (Some(aft), Some(fore)) = (aft, fore) else { return false };
+    if !unwritten(Coordinate::ForePerpendicular) {
+        return false;
+    }
+    let mut numbers: Vec<f64> = heads.iter().filter_map(plain).collect();
+    numbers.sort_by(f64::total_cmp);
+    let mut steps: Vec<f64> = numbers.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let Some(usual) = steps.get(steps.len() / 2) else { return false };
+    match length {
+        Some(length) => {
+            let gap = numbers.iter().map(|number| (length - number).abs()).fold(f64::INFINITY, f64::min);
+            gap > JUMP * usual && (fore - aft).abs() < length
+        }
+        None => *usual <= 1.0 && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9),
+    }
+}
+
+/// From where stations count where nobody states it: by the numbers of the perpendiculars.
+fn counted_from(aft: Option<f64>, fore: Option<f64>, [low, high]: [f64; 2]) -> Option<From> {
+    let near_low = |number: f64| number - low < high - number;
+    match (aft, fore) {
+        (Some(aft), Some(fore)) => Some(aft < fore),
+        (Some(aft), None) => Some(near_low(aft)),
+        (None, Some(fore)) => Some(!near_low(fore)),
+        (None, None) => None,
+    }
+    .map(|from_aft| if from_aft { From::AftPerpendicular } else { From::ForePerpendicular })
+}
+
+/// Where stations are counted from, and how far apart they are.
+pub(super) fn origin(
+    settings: &Settings,
+    corner: Corner,
+    heads: &[Position],
+    largest_half_breadth: f64,
+    problems: &mut Problems,
+) -> Origin {
+    let length = settings.stated.length_between_perpendiculars;
+    let heads = distinct(heads);
+    let numbers: Vec<f64> = heads.iter().filter_map(plain).collect();
+    let (low, high) = numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
+    let named = heads.iter().filter(|p| p.named || p.axis == Some(Axis::Station)).count();
+    let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
+    let scale = settings.stations.unwrap_or_else(|| {
+        let are_numbers = match says {
+            Some(Axis::Station) if corner.unit.is_none() => true,
+            Some(Axis::X) => false,
+            _ if 2 * named > heads.len() => true,
+            // Without words, or with a unit beside them: a hull that would be shorter than it is broad counts its
+            // stations.
+            _ => {
+                let length = corner.unit.map_or(high - low, |unit| unit.metres(high - low));
+                numbers.len() > 1 && length < 2.0 * largest_half_breadth
+            }
+        };
+        let are_numbers = are_numbers || shows_numbers(&heads, length);
+        StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers: are_numbers }
+    });
+    if numbers.is_empty() || !scale.numbers && scale.from == From::AftPerpendicular {
+        return Origin { datum: StationDatum::Lengths, numbers: scale.numbers, length: None };
+    }
+    if !scale.numbers {
+        return Origin { datum: distances(scale.from, length, problems), numbers: false, length: None };
+    }
+    let [aft, fore] = [From::AftPerpendicular, From::ForePerpendicular].map(|end| number_of(&heads, end));
+    let between = aft.zip(fore).map(|(aft, fore)| (fore - aft).abs()).filter(|spaces| *spaces > 0.0);
+    let spacing = spacing(settings, corner, (between, [low, high]), problems);
+    let by_ends = counted_from(aft, fore, [low, high]).filter(|_| settings.stations.is_none() && corner.from.is_none());
+    if settings.stations.is_none() && corner.from.is_none() && by_ends.is_none() {
+        let message = "stations are numbered, and nothing says from which end: 0 is taken as AP. From FP the hull is turned about, and \
+                       LCB changes its sign";
+        let remedy = "Give stations = \"numbers from AP\" or \"numbers from FP\" in the conventions";
+        problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);
+    }
+    let spaces = settings.spaces.or(corner.spaces).or(between).or(usual([low, high]));
+    let length = length.or(spaces.filter(|_| between.is_some()).map(|spaces| spaces * spacing));
+    let datum = match by_ends.unwrap_or(scale.from) {
+        From::ForePerpendicular => {
+            // Without L_PP the last number is AP.
+            let known = length.or(spaces.map(|n| n * spacing)).unwrap_or(high * spacing);
+            let offset = known + fore.unwrap_or(0.0) * spacing;
+            problems.note(format!("station {} is FP, {known} m forward of AP", fore.unwrap_or(0.0)));
+            StationDatum::Numbers { offset, spacing: -spacing }
+        }
+        From::Midship => StationDatum::Numbers { offset: 0.5 * length.unwrap_or(0.0), spacing },
+        From::AftPerpendicular => StationDatum::Numbers { offset: -aft.unwrap_or(0.0) * spacing, spacing },
+    };
+    Origin { datum, numbers: true, length: between.map(|spaces| spaces * spacing) }
+}
+
+/// Distances that do not count from AP.
+fn distances(from: From, length: Option<f64>, problems: &mut Problems) -> StationDatum {
+    let (offset, sign) = match (from, length) {
+        (From::Midship, Some(length)) => (0.5 * length, 1.0),
+        (From::ForePerpendicular, Some(length)) => (length, -1.0),
+        (From::ForePerpendicular, None) => {
+            let message =
+                "distances count from FP and L_PP is not known: x is 0 at FP and negative aft of it".to_owned();
+            problems.warning("W320", FilePosition::FILE, message, "Give Lpp in the conventions");
+            (0.0, -1.0)
+        }
+        // `ends_from_midship` finds AP, once the unit is known.
+        _ => (0.0, 1.0),
+    };
+    if length.is_some() {
+        let place = if sign > 0.0 { "midship" } else { "FP" };
+        problems.note(format!("distances count from {place}, which is {offset} m forward of AP"));
+    }
+    StationDatum::Shifted { offset, sign }
+}
+
+/// Twenty or ten spaces where the numbers end there, or one before with the other end one after 0; others have to be said.
+fn usual([low, high]: [f64; 2]) -> Option<f64> {
+    let is = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    USUAL_SPACES.into_iter().find(|&n| high >= n - 1e-9 && high < n + 2.0 || is(high, n - 1.0) && is(low, 1.0))
+}
+
+/// The distance from one number to the next \[m\]; `between` are the spaces between AP and FP, where both are named.
+fn spacing(
+    settings: &Settings,
+    corner: Corner,
+    (between, [low, high]): (Option<f64>, [f64; 2]),
+    problems: &mut Problems,
+) -> f64 {
+    let spaces = settings.spaces.or(corner.spaces).or(between).or(usual([low, high]));
+    match (settings.station_spacing, settings.stated.length_between_perpendiculars, spaces) {
+        (Some(spacing), _, _) => {
+            problems.note(format!("stations are numbered; {spacing} m from one number to the next"));
+            spacing
+        }
+        (None, Some(length), Some(spaces)) => {
+            problems.note(format!("stations are numbered; {spaces} spaces in L_PP of {length} m"));
+            length / spaces
+        }
+        (None, Some(length), None) => {
+            let spaces = high - low.min(0.0);
+            let message = format!(
+                "stations are numbered {low} to {high}, and the number of spaces in L_PP of {length} m is not known: taken as {spaces}"
+            );
+            problems.warning(
+                "W320",
+                FilePosition::FILE,
+                message,
+                "Give spaces, or station_spacing, in the conventions",
+            );
+            if spaces > 0.0 { length / spaces } else { 1.0 }
+        }
+        _ => {
+            let message =
+                "stations are numbered and neither L_PP nor their spacing is known: taken as 1 m apart".to_owned();
+            problems.warning("W320", FilePosition::FILE, message, "Give Lpp, or station_spacing, in the conventions");
+            1.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::header::position;
+    use super::*;
+
+    fn heads(text: &str) -> Vec<Position> {
+        text.split(',').map(|head| position(head, false).unwrap()).collect()
+    }
+
+    #[test]
+    fn numbers_of_perpendiculars() {
+        for (text, aft, fore) in [
+            ("AP,1,2,3,FP", Some(0.0), Some(4.0)),
+            ("FP,1,2,3,AP", Some(4.0), Some(0.0)),
+            ("-1,AP,1,2,19.5,FP,20.5", Some(0.0), Some(20.0)),
+            ("AP,0.25,0.5,1,9.75,FP", Some(0.0), Some(10.0)),
+            ("0 (FP),1,2,20 (AP)", Some(20.0), Some(0.0)),
+            ("0,1,2,3", None, None),
+        ] {
+            let heads = heads(text);
+            let found = [From::AftPerpendicular, From::ForePerpendicular].map(|end| number_of(&heads, end));
+            assert_eq!(found, [aft, fore], "{text}");
+        }
+    }
+
+    #[test]
+    fn distances_between_perpendiculars_are_no_numbers() {
+        let of = |text: &str, length| shows_numbers(&heads(text), length);
+        assert!(of("AP,1,2,3,4,5,6,7,8,9,FP", Some(100.0)) && of("AP,1,2,3,FP", None));
+        assert!(!of("AP,10,20,30,40,50,60,70,80,90,FP", Some(100.0)) && !of("AP,10,20,30,FP", None));
+        assert!(!of("0,1,2,3", Some(100.0)));
+    }
+}
