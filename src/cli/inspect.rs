@@ -90,6 +90,7 @@ fn diagonal_angle(text: &str) -> Result<f64, String> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
     source.notes.iter().for_each(|note| stream::message(note));
+    let warnings = source.warnings();
     let hull = source.hull;
     let usual = Planes::with_defaults(&hull);
     let list = |given: &Option<Lengths>, usual: Vec<f64>| given.as_ref().map_or(usual, |list| list.0.clone());
@@ -106,7 +107,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let tolerance = arguments.tolerance.unwrap_or_else(|| resolution.tolerance());
     let inspection = Inspection::new(&hull, &planes, tolerance);
     let text = if arguments.json {
-        stream::json(&inspection_json(hull.name(), &inspection))?
+        stream::json_of(inspection_json(hull.name(), &inspection), warnings)?
     } else {
         inspection_page(hull.name(), &inspection)
     };

@@ -82,7 +82,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         stream::message("the plane does not cut the hull; the table is empty");
     }
     let text = if arguments.json {
-        stream::json(&section_json(&section, arguments.deviation))?
+        stream::json_of(section_json(&section, arguments.deviation), source.warnings())?
     } else {
         section_csv(&section, arguments.deviation)
     };

@@ -103,6 +103,14 @@ pub(super) fn json(value: &impl serde::Serialize) -> Result<String, Failure> {
     Ok(text + "\n")
 }
 
+/// The same, with what was assumed about the hull as the member `warnings`.
+pub(super) fn json_of(mut value: serde_json::Value, warnings: Vec<String>) -> Result<String, Failure> {
+    if let Some(object) = value.as_object_mut() {
+        object.insert("warnings".to_owned(), warnings.into());
+    }
+    json(&value)
+}
+
 /// The same, with the failure that ends the command after it, as the member `error`.
 pub(super) fn json_judged(mut value: serde_json::Value, verdict: &Result<(), Failure>) -> Result<String, Failure> {
     if let (Err(failure), Some(object)) = (verdict, value.as_object_mut()) {

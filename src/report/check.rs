@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::source::read_table_file;
+use super::verdict::is_warning;
 use crate::config::{self, Diagnostic};
 use crate::exchange::{self, TableProblem, TableWriting, write_table};
 use crate::fairing::{
@@ -379,6 +380,7 @@ pub fn check_json(check: &Check) -> Value {
             "points": check.points.as_ref().map(|result| result.noise),
         },
         "suspects": suspects, "problems": problems, "lines": lines,
+        "warnings": check.notes.iter().filter(|note| is_warning(note)).collect::<Vec<_>>(),
     })
 }
 

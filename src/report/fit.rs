@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 use serde_json::{Value, json};
 
 use super::check::{suspects_json, suspects_line};
+use super::doubts::{drawn_doubt, suspects_doubt};
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
@@ -260,7 +261,8 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
     let mut table = CurvesOfForm::new(&fitted.hull, &draughts, &conventions);
     let design_row = particulars.draught.and_then(|_| table.rows.pop());
     let estimate = VolumeEstimate::new(&job.table, &job.method.method, &fitted.hull, fitted.hull.reference_height());
-    let warnings = overshoot::warnings(&job.table, &fitted.hull, design_row.as_ref());
+    let mut warnings = overshoot::warnings(&job.table, &fitted.hull, design_row.as_ref());
+    warnings.extend(drawn_doubt(&job.table, &fitted.hull));
     let summary = summary(job, &fitted, &estimate, &warnings, design_row.as_ref(), &conventions);
 
     let surface = fitted.surface_table(&job.table);
@@ -356,7 +358,7 @@ pub fn fit_page(job: &FitJob, outputs: &FitOutputs, folder: &str) -> String {
         None => format!(" below z = {:.3} m", fitted.hull.reference_height()),
     };
     page.push_str(&wrapped(&format!("{}{below}.", outputs.estimate.words()), 2));
-    let suspects = suspects_line(&job.table, &job.suspects);
+    let suspects = suspects_doubt(&job.table, &job.suspects);
     for warning in outputs.warnings.iter().chain(&suspects) {
         page.push_str(&wrapped(&format!("WARNING: {warning}"), 2));
     }

@@ -4,6 +4,7 @@ mod check;
 mod codes;
 mod comb_lines;
 mod convert;
+mod doubts;
 mod export;
 mod failure;
 mod fair;

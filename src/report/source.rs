@@ -5,8 +5,9 @@ use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use super::check::suspects_line;
+use super::doubts::{drawn_doubt, suspects_doubt};
 use super::failure::{COMMAND_LINE, Failure, problem};
+use super::verdict::is_warning;
 use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::fairing::suspects;
@@ -24,6 +25,14 @@ pub struct Source {
     pub conventions: Conventions,
     /// What was assumed where a table of offsets says nothing, in words for the user.
     pub notes: Vec<String>,
+}
+
+impl Source {
+    /// Those of the notes that are warnings.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        self.notes.iter().filter(|note| is_warning(note)).cloned().collect()
+    }
 }
 
 /// No input but a body is longer than this \[bytes\]; the readers have limits of their own.
@@ -409,7 +418,8 @@ fn fitted(path: &Path, bytes: &[u8], overrides: &Overrides) -> Result<Source, Fa
     })?;
     // What was detected, as units and orders, decides the hull as much as what was assumed.
     let notes = notes.iter().map(ToString::to_string);
-    let notes = notes.chain(suspects_line(&table, &suspects(&table))).chain(fitted.notes).collect();
+    let doubts = [drawn_doubt(&table, &fitted.hull), suspects_doubt(&table, &suspects(&table))];
+    let notes = notes.chain(doubts.into_iter().flatten()).chain(fitted.notes).collect();
     let given = Given::of_table(fitted.hull.particulars().draught.map(|_| overrides.states_draught()));
     let conventions = Conventions { assumed: Assumed::of(&table.stated), given, ..Conventions::default() };
     Ok(Source { hull: fitted.hull, conventions, notes })
