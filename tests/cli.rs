@@ -46,6 +46,7 @@ fn generate_writes_its_files_and_one_screen() {
         "lines.png",
         "manifest.json",
         "offsets.csv",
+        "offsets.toml",
         "report.md",
         "sectional-area.png",
         "sections.svg",

@@ -107,7 +107,12 @@ fn what_goes_to_a_waterline_is_not_exported_without_one() {
         assert_eq!(code, Some(0), "{said}");
     }
     let (code, _, said) = answer(&["export", &hull, "-f", "gdf,pnl,stl", "-o", &out, "--force"]);
-    assert!(code == Some(2) && said.contains("--format gdf,pnl need a draught"), "{said}");
+    // One format that cannot be written does not cancel the others.
+    assert!(code == Some(5) && said.contains("E504") && said.contains("--format gdf needs a draught"), "{said}");
+    assert!(folder.join("out/hull.stl").is_file() && !folder.join("out/hull.pnl").is_file());
+    let one = folder.join("one/boat.obj").display().to_string();
+    assert_eq!(answer(&["export", &hull, "-o", &one]).0, Some(0));
+    assert!(folder.join("one/boat.obj").is_file());
     let (code, _, said) = answer(&["export", &hull, "-f", "obj", "--datum", "waterline", "-o", &out]);
     assert!(code == Some(2) && said.contains("--datum waterline needs a draught"), "{said}");
     let (code, _, said) = answer(&["export", &hull, "-f", "stl,csv,ghs", "-o", &out]);

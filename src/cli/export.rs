@@ -7,8 +7,10 @@ use clap::Args;
 use super::run_files::stem;
 use super::{length, positive, stream};
 use crate::exchange::{CadUnit, DxfVersion};
+use crate::hull::Hull;
 use crate::report::{
-    Destination, ExportFormat, ExportSettings, Failure, Inputs, draught_of, export, read_source_with, source_files,
+    Destination, ExportFormat, ExportSettings, Exported, Failure, Inputs, draught_of, export, read_source_with,
+    source_files,
 };
 
 #[derive(Debug, Args)]
@@ -18,10 +20,10 @@ pub(super) struct Arguments {
     hull: PathBuf,
     /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl,
     /// ghs, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan
-    #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
+    #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required_unless_present = "output")]
     format: Vec<ExportFormat>,
-    /// Folder for the files [default: out/<name of the input>]
-    #[arg(short, long, value_name = "DIR")]
+    /// Folder for the files, or one file whose ending says the format, as hull.step [default: out/<name of the input>]
+    #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
     /// Unit of STEP, IGES and DXF files: m or mm; meshes are in metres
     #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
@@ -121,10 +123,70 @@ fn datum(text: &str) -> Result<Datum, String> {
     if text == "waterline" { Ok(Datum::Waterline) } else { length(text).map(Datum::Height) }
 }
 
+/// Where the files go: a folder, and the name of the one file that `--output` may name.
+struct Output {
+    folder: PathBuf,
+    file: Option<String>,
+    formats: Vec<ExportFormat>,
+}
+
+impl Output {
+    fn of(arguments: &Arguments, stem: &str) -> Result<Self, Failure> {
+        let formats = arguments.format.clone();
+        let folder = || Path::new("out").join(stem);
+        let Some(output) = &arguments.output else { return Ok(Self { folder: folder(), file: None, formats }) };
+        let name = output.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let by_ending = ExportFormat::from_ending(&name).filter(|_| !output.is_dir());
+        match (by_ending, formats.as_slice()) {
+            (None, []) => Err(Failure::Usage(format!(
+                "--output {}: no format has this ending, and --format names none",
+                output.display()
+            ))),
+            (Some(found), []) => Ok(Self::file(output, name, found)),
+            (Some(found), [format]) if found == *format => Ok(Self::file(output, name, found)),
+            _ => Ok(Self { folder: output.clone(), file: None, formats }),
+        }
+    }
+
+    fn file(path: &Path, name: String, format: ExportFormat) -> Self {
+        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        let folder = parent.map_or_else(|| PathBuf::from("."), Path::to_path_buf);
+        Self { folder, file: Some(name), formats: vec![format] }
+    }
+}
+
+/// The files of all formats; where one of several cannot be written, those of the others, and what is wrong with each.
+fn each(
+    hull: &Hull,
+    stem: &str,
+    formats: &[ExportFormat],
+    settings: &ExportSettings,
+) -> Result<(Exported, Vec<String>), Failure> {
+    let whole = match export(hull, stem, formats, settings) {
+        Ok(exported) => return Ok((exported, Vec::new())),
+        Err(failure) => failure,
+    };
+    let (mut written, mut pages, mut failed) = (Vec::new(), Vec::new(), Vec::new());
+    for format in formats.iter().filter(|_| formats.len() > 1) {
+        match export(hull, stem, &[*format], settings) {
+            Ok(exported) => {
+                written.extend(exported.files);
+                pages.push(exported.page);
+            }
+            Err(failure) => failed.push(format!("{}: {failure}", format.name())),
+        }
+    }
+    let is_twice = formats.iter().enumerate().any(|(k, format)| formats[..k].contains(format));
+    if written.is_empty() || is_twice {
+        return Err(whole);
+    }
+    Ok((Exported { files: written, page: pages.join("\n") }, failed))
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
     let stem = stem(&arguments.hull).to_string_lossy().into_owned();
-    let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&stem));
+    let Output { folder, file, formats } = Output::of(arguments, &stem)?;
     let datum = match arguments.datum {
         Datum::Height(height) => height,
         Datum::Waterline => draught_of(&source.hull, arguments.draught, "--datum waterline")?,
@@ -140,15 +202,24 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         stations: source.conventions.stations,
         flatness: arguments.flatness,
     };
-    let exported = export(&source.hull, &stem, &arguments.format, &settings)?;
+    let (mut exported, failed) = each(&source.hull, &stem, &formats, &settings)?;
+    if let (Some(name), [only]) = (file, exported.files.as_mut_slice()) {
+        only.name = name;
+    }
     let inputs = Inputs::of(&source_files(&arguments.hull));
     Destination { folder: &folder, inputs: &inputs, force: arguments.force }.write(&exported.files)?;
+    let verdict = if failed.is_empty() {
+        Ok(())
+    } else {
+        Err(Failure::Check(format!("E504 not written: {}", failed.join("; "))))
+    };
     if arguments.quiet {
-        return Ok(());
+        return verdict;
     }
     for note in &source.notes {
         stream::message(note);
     }
     let names: Vec<&str> = exported.files.iter().map(|file| file.name.as_str()).collect();
-    stream::data(&format!("{}\nWritten to {}: {}\n", exported.page, folder.display(), names.join(", ")))
+    stream::data(&format!("{}\nWritten to {}: {}\n", exported.page, folder.display(), names.join(", ")))?;
+    verdict
 }

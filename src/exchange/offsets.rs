@@ -5,7 +5,7 @@
 //! where there is no hull.
 
 use super::number::{line, to_decimals};
-use crate::hull::OffsetTable;
+use crate::hull::{OffsetTable, PrincipalParticulars};
 use crate::units::Notation;
 
 fn write(notation: Notation, value: Option<f64>) -> String {
@@ -56,6 +56,20 @@ pub fn heights_csv(table: &OffsetTable, notation: Notation) -> String {
         text.push_str(&line(&row));
     }
     text
+}
+
+/// The conventions of a table of offsets of a hull, for the TOML file beside it: its dimensions \[m\], which the offsets do not
+/// say.
+#[must_use]
+pub fn conventions_toml(particulars: &PrincipalParticulars) -> String {
+    let dimensions = [
+        ("Lpp", Some(particulars.length_between_perpendiculars)),
+        ("B", Some(particulars.breadth)),
+        ("T", particulars.draught),
+        ("D", Some(particulars.depth)),
+    ];
+    let lines = dimensions.into_iter().filter_map(|(key, value)| Some(format!("{key} = {:?}\n", value?)));
+    format!("# Dimensions of the hull of offsets.csv [m].\n[table]\n{}", lines.collect::<String>())
 }
 
 #[cfg(test)]

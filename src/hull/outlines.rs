@@ -1,5 +1,6 @@
 //! The sections of a hull as lines of points, for programs that take nothing else.
 
+use super::area::SectionalAreaCurve;
 use super::cell::{Marks, OutlinePoint};
 use super::form::Hull;
 use super::offsets::{OffsetStation, OffsetTable, StationNumbers, StationOffsets, default_stations};
@@ -14,27 +15,85 @@ const CENTREPLANE: f64 = 1e-6;
 /// Places on each end of the profile at which there is a section, from its lowest to its highest point.
 const PROFILE: usize = 5;
 
+/// Lines of the surface whose ends are looked at for the ends of the hull.
+const LINES: usize = 32;
+
 /// Sections nearer to each other than this part of the length are one.
 const APART: f64 = 2e-3;
 
+/// What the volume between the sections is off by at most, over that of the hull, where linear areas are taken between them.
+const VOLUME: f64 = 5e-4;
+
+/// Most sections, and most rounds in which some are added.
+const MOST: usize = 400;
+const ROUNDS: usize = 12;
+
 /// Stations of the sections of a hull: the default ones, and between and beyond them places along the stem and the
-/// stern profile, so that raked ends are not cut short.
+/// stern profile and wherever the areas up to one of the `heights` \[m\] turn, so that nothing of the hull is cut off.
 #[must_use]
-pub fn section_stations(hull: &Hull) -> Vec<OffsetStation> {
-    let mut stations = default_stations(hull, StationNumbers::default());
-    let apart = APART * hull.particulars().length_between_perpendiculars;
-    let ((aft, fore), (low, high)) = (hull.surface().u().domain(), hull.surface().v().domain());
-    for u in [aft, fore] {
-        for k in 0..PROFILE {
-            let v = low + (high - low) * k as f64 / (PROFILE - 1) as f64;
-            let x = hull.surface().eval(u, v)[0];
-            if stations.iter().all(|station| (station.x - x).abs() > apart) {
-                stations.push(OffsetStation { name: format!("{x:.3}"), x });
-            }
+pub fn section_stations(hull: &Hull, heights: &[f64]) -> Vec<OffsetStation> {
+    let [aft, fore] = extent(hull);
+    let default = default_stations(hull, StationNumbers::default());
+    let mut stations: Vec<OffsetStation> =
+        default.into_iter().filter(|station| (aft..=fore).contains(&station.x)).collect();
+    let apart = APART * (fore - aft);
+    let (us, (low, high)) = (hull.surface().u().domain(), hull.surface().v().domain());
+    let profile = [us.0, us.1].into_iter().flat_map(|u| {
+        (0..PROFILE).map(move |k| hull.surface().eval(u, low + (high - low) * k as f64 / (PROFILE - 1) as f64)[0])
+    });
+    for x in profile.chain([aft, fore]) {
+        if stations.iter().all(|station| (station.x - x).abs() > apart) {
+            stations.push(OffsetStation { name: format!("{x:.3}"), x });
         }
     }
     stations.sort_by(|a, b| a.x.total_cmp(&b.x));
+    for _ in 0..ROUNDS {
+        let added = between(hull, heights, &stations);
+        if added.is_empty() || stations.len() + added.len() > MOST {
+            break;
+        }
+        stations.extend(added.into_iter().map(|x| OffsetStation { name: format!("{x:.3}"), x }));
+        stations.sort_by(|a, b| a.x.total_cmp(&b.x));
+    }
     stations
+}
+
+/// Least and greatest x of a hull \[m\], by the points of its surface on lines of its parameters.
+fn extent(hull: &Hull) -> [f64; 2] {
+    let surface = hull.surface();
+    let lines = |range: (f64, f64)| (0..=LINES).map(move |k| range.0 + (range.1 - range.0) * k as f64 / LINES as f64);
+    let vs: Vec<f64> = surface.v().breakpoints().into_iter().chain(lines(surface.v().domain())).collect();
+    let ends = surface.u().domain();
+    let xs = [ends.0, ends.1].into_iter().flat_map(|u| vs.iter().map(move |&v| surface.eval(u, v)[0]));
+    xs.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+}
+
+/// Middles of the spaces between stations in which linear areas are off by more than their part of [`VOLUME`], or at whose
+/// outer end the hull has no section.
+fn between(hull: &Hull, heights: &[f64], stations: &[OffsetStation]) -> Vec<f64> {
+    let xs: Vec<f64> = stations.iter().map(|station| station.x).collect();
+    let middles: Vec<f64> = xs.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    let (at, inside) =
+        (SectionalAreaCurve::areas(hull, heights, &xs), SectionalAreaCurve::areas(hull, heights, &middles));
+    let mut wanted = vec![false; middles.len()];
+    for h in 0..heights.len() {
+        let space = |k: usize| {
+            let (width, ends) = (xs[k + 1] - xs[k], [at[k][h], at[k + 1][h]]);
+            let middle = inside[k][h];
+            let outer = k == 0 && ends[0] <= 0.0 || k + 2 == xs.len() && ends[1] <= 0.0;
+            let off = 2.0 / 3.0 * width * (middle - 0.5 * (ends[0] + ends[1])).abs();
+            let volume = width * (ends[0] + 4.0 * middle + ends[1]) / 6.0;
+            [if outer { off + volume } else { off }, volume]
+        };
+        let spaces: Vec<[f64; 2]> = (0..middles.len()).map(space).collect();
+        let volume: f64 = spaces.iter().map(|[_, volume]| volume).sum();
+        let off: f64 = spaces.iter().map(|[off, _]| off).sum();
+        if off > VOLUME * volume {
+            let part = VOLUME * volume / spaces.len() as f64;
+            wanted.iter_mut().zip(&spaces).for_each(|(wanted, [off, _])| *wanted |= *off > part);
+        }
+    }
+    middles.into_iter().zip(wanted).filter(|(_, wanted)| *wanted).map(|(x, _)| x).collect()
 }
 
 impl OffsetTable {

@@ -12,7 +12,7 @@ use crate::exchange::{
 };
 use crate::hull::{
     Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, SharpCorner,
-    Solid, StationNumbers, SubdivisionNet, TableForm, floats_at, section_stations, whole_volume,
+    Solid, StationNumbers, StationOffsets, SubdivisionNet, TableForm, floats_at, section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::units::{Notation, counted};
@@ -249,6 +249,9 @@ const MOST_ALONG: f64 = 200.0;
 /// What the volume of panels whose size is not given leaves that of the hull by, over it.
 const PANEL_VOLUME: f64 = 5e-3;
 
+/// What the volume of sections leaves that of the hull by, over it, before it is a warning.
+const SECTION_VOLUME: f64 = 3e-3;
+
 /// Corners of the body that the page names.
 const NAMED_CORNERS: usize = 4;
 
@@ -296,6 +299,30 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
         report.volume,
         report.volume / volume - 1.0,
         volume,
+    )
+}
+
+/// What sections are on the page: how many, and the volume between them, with linear areas, against that of the hull.
+fn sections_line(table: &OffsetTable, volume: f64) -> String {
+    let area = |station: &StationOffsets| {
+        let chords = station.outlines.iter().flat_map(|line| line.windows(2));
+        [station.station.x, chords.map(|pair| (pair[1].z - pair[0].z) * (pair[0].y + pair[1].y)).sum()]
+    };
+    let areas: Vec<[f64; 2]> = table.stations.iter().map(area).collect();
+    let written: f64 = areas.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum();
+    let off = written / volume - 1.0;
+    let warning = if off.abs() > SECTION_VOLUME {
+        "\nW514 the volume between the sections is more than 0.3 % off that of the hull. Take a smaller --deviation"
+    } else {
+        ""
+    };
+    format!(
+        "sections: {} with {} points, from x = {:.3} to {:.3} m, z from the base line; volume {written:.6e} m3, {off:+.2e} of the \
+         hull's{warning}",
+        table.stations.len(),
+        table.point_count(),
+        areas.first().map_or(0.0, |[x, _]| *x),
+        areas.last().map_or(0.0, |[x, _]| *x)
     )
 }
 
@@ -475,9 +502,11 @@ pub fn export(
         PanelMesh::default()
     };
     let sections = if formats.iter().any(|format| format.is_sections()) {
-        let table = OffsetTable::of_sections(hull, &section_stations(hull), deviation);
-        let points = table.point_count();
-        page.push(format!("sections: {} with {points} points, z from the base line", table.stations.len()));
+        let draught = settings.draught.or(hull.particulars().draught);
+        let heights: Vec<f64> =
+            [Some(hull.reference_height()), draught, Some((1.0 - 1e-9) * hull.top())].into_iter().flatten().collect();
+        let table = OffsetTable::of_sections(hull, &section_stations(hull, &heights), deviation);
+        page.push(sections_line(&table, volume));
         table
     } else {
         OffsetTable::default()

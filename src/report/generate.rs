@@ -10,8 +10,8 @@ use super::result_files::source_words;
 use super::source::build;
 use crate::config::{Design, Diagnostic, Severity};
 use crate::exchange::{
-    Manifest, ManifestEntry, SummaryFile, TargetLine, ValueLine, conventions_json, heights_csv, hydrostatics_csv,
-    offsets_csv, row_json, write_hull,
+    Manifest, ManifestEntry, SummaryFile, TargetLine, ValueLine, conventions_json, conventions_toml, heights_csv,
+    hydrostatics_csv, offsets_csv, row_json, write_hull,
 };
 use crate::hull::{Hull, OffsetStation, OffsetTable, default_buttocks, default_stations, default_waterlines};
 use crate::hydrostatics::{CurvesOfForm, Hydrostatics, default_draughts};
@@ -124,6 +124,7 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
     let mut files = vec![
         OutputFile::text("hull.json", write_hull(&hull, &design.conventions).map_err(|e| internal("hull.json", &e))?),
         OutputFile::text("offsets.csv", offsets_csv(&offsets, Notation::Metres, true)),
+        OutputFile::text("offsets.toml", conventions_toml(hull.particulars())),
         OutputFile::text("heights.csv", heights_csv(&offsets, Notation::Metres)),
         OutputFile::text("hydrostatics.csv", hydrostatics_csv(&table)),
         json_file("summary.json", &summary)?,
