@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 30] = [
+pub(super) const REMARKS: [Explanation; 36] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -98,10 +98,18 @@ pub(super) const REMARKS: [Explanation; 30] = [
     Explanation {
         code: "W315",
         title: "Bottom that the table does not show",
-        cause: "The lowest waterline is above the base line, and no keel is given. The volume below it is left out, \
-         and is more than 1 %.",
+        cause: "The table leaves a part of the bottom open: below its lowest waterline, or below the first points of its \
+         sections. This part may be more than 1 % of the volume.",
         example: "A lowest waterline at 0.5 m: up to 19 % of the volume is below it.",
-        remedy: "Give a row or a column `keel` with its heights [m], or the lowest waterlines.",
+        remedy: "Give a row or a column `keel` and one `flat of bottom` [m], the lowest waterlines, or sections that begin \
+         on the centreplane.",
+    },
+    Explanation {
+        code: "W317",
+        title: "End that the table does not show",
+        cause: "The outermost station still has a section, and no profile or transom ends the hull there. It is cut off upright, without more than 1 % of the volume.",
+        example: "Stations from 10 to 90 m of 100 m.",
+        remedy: "Give the stations to the ends, or the profiles of stern and stem.",
     },
     Explanation {
         code: "W320",
@@ -148,6 +156,34 @@ pub(super) const REMARKS: [Explanation; 30] = [
         cause: "A value is read although it is unusual: a fraction above 1, or a half-breadth slightly below 0.",
         example: "`9` for `0.9` in a table of fractions.",
         remedy: "Look at the value. A decimal point may be missing.",
+    },
+    Explanation {
+        code: "W336",
+        title: "Lines that cross",
+        cause: "Two lines of a table of lines stand in another order at a station than at most others.",
+        example: "A chine of 6-7-1 for 0-7-1 is above the sheer.",
+        remedy: "Correct the height at that station.",
+    },
+    Explanation {
+        code: "W338",
+        title: "Chine that no mark tells",
+        cause: "Sections as points turn at one point between straight panels, at neighbouring stations. The program takes these points for knuckles.",
+        example: "Sections of keel, chine and sheer alone.",
+        remedy: "Mark knuckles with `K` where the chines are others. Give more points of round sections.",
+    },
+    Explanation {
+        code: "W340",
+        title: "Sections that the hull does not follow",
+        cause: "The volume inside the sections as they are drawn differs from that of the hull by more than 1 %. Points were left out, or curves through them are others.",
+        example: "The well of a floating dock: +25 %.",
+        remedy: "Give the points in order from keel to deck, and mark the chines.",
+    },
+    Explanation {
+        code: "W341",
+        title: "Suspect offsets that change the volume",
+        cause: "Offsets stand apart from their neighbours, and the volume with the expected ones differs by more than 1 %.",
+        example: "57.40 for 7.440: +17 %.",
+        remedy: "Run `check`, and correct the offsets.",
     },
     Explanation {
         code: "W351",
@@ -219,5 +255,13 @@ pub(super) const REMARKS: [Explanation; 30] = [
         cause: "Nobody stated the form factor or the bulb, and the result depends on it.",
         example: "`resistance configs/wigley.toml --speeds 10:20:2 --method michell`.",
         remedy: "State `--form-factor`, or `--bulb-area` and `--bulb-height`.",
+    },
+    Explanation {
+        code: "W514",
+        title: "Sections that leave volume out",
+        cause: "The volume between the written sections, with linear areas from one to the next, is more than 0.3 % off that \
+         of the hull.",
+        example: "`volume 4.73 m3, -3.8e-01 of the hull's`.",
+        remedy: "Take a smaller `--deviation`, or a format of surfaces.",
     },
 ];

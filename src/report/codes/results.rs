@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const RESULTS: [Explanation; 16] = [
+pub(super) const RESULTS: [Explanation; 17] = [
     Explanation {
         code: "E401",
         title: "Infeasible targets",
@@ -55,6 +55,13 @@ pub(super) const RESULTS: [Explanation; 16] = [
         example: "`E503 table.csv: the hull is no fairer than the surface through the table: 16 > 18 changes of sign`.",
         remedy: "Give nearer targets, wider tolerances or more smoothing with `--weight`, or look for errors with \
          `loftsman check`.",
+    },
+    Explanation {
+        code: "E504",
+        title: "Format that is not written",
+        cause: "Of several formats of `export` some cannot be written for this hull. The files of the others are there.",
+        example: "`E504 not written: gdf: the format needs a draught, and none is stated`.",
+        remedy: "Give what the message asks for, and write these formats again.",
     },
     Explanation {
         code: "E510",

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const TABLES: [Explanation; 31] = [
+pub(super) const TABLES: [Explanation; 32] = [
     Explanation {
         code: "E300",
         title: "No table of offsets",
@@ -235,5 +235,13 @@ pub(super) const TABLES: [Explanation; 31] = [
          the immersed part.",
         example: "A mesh with the same skin twice.",
         remedy: "Give the outer skin alone, with its triangles turned outward.",
+    },
+    Explanation {
+        code: "E354",
+        title: "Skin of a body that is none",
+        cause: "The skin of a body has a long opening below its deck: a side or the bottom is missing. Or its shells cross, and are \
+         too many for their union.",
+        example: "A box without its port side: 900 for 1800 m3.",
+        remedy: "Close the body: deck, transom and flat bow alone may be missing. Unite its shells to one skin.",
     },
 ];
