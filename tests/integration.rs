@@ -14,6 +14,7 @@ mod charts;
 mod cli;
 mod cli_refusals;
 mod codes;
+mod compare;
 mod configs;
 mod draught;
 mod errors;

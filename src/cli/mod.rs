@@ -2,6 +2,7 @@
 //! returned by a library function.
 
 mod check;
+mod compare;
 mod completions;
 mod convert;
 mod explain;
@@ -76,6 +77,8 @@ enum Command {
     Hydro(hydro::Arguments),
     /// Calm-water resistance and effective power of a hull: Holtrop and Mennen, Michell, ITTC-57
     Resistance(Box<resistance::Arguments>),
+    /// Two hulls beside each other: particulars, hydrostatics in per cent, distances, body plans
+    Compare(compare::Arguments),
     /// Table of offsets of a hull at any stations and waterlines
     Offsets(offsets::Arguments),
     /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB, panels as GDF, NEMOH, PNL, sections
@@ -182,6 +185,7 @@ fn command(arguments: &[OsString]) -> Result<(), Failure> {
         Command::Schema(arguments) => schema::run(arguments),
         Command::Hydro(arguments) => hydro::run(arguments),
         Command::Resistance(arguments) => resistance::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
         Command::Offsets(arguments) => offsets::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),

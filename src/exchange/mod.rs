@@ -2,6 +2,7 @@
 //! system is the business of whoever calls.
 
 mod cad;
+mod compare;
 mod curve;
 mod fairing;
 mod fairing_read;
@@ -26,6 +27,7 @@ mod summary;
 mod table;
 
 pub use cad::{CadUnit, DxfLine, DxfVersion, write_dxf, write_iges, write_step};
+pub use compare::{CompareFile, ComparedValue, compare_csv, compare_json, per_cent};
 pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
 pub use fairing::{
     COMPROMISE_LINE, NO_MOVE, RoundingEffect, changes_csv, control_polygon_csv, fairing_json, priced, reached,

@@ -3,6 +3,8 @@
 mod check;
 mod codes;
 mod comb_lines;
+mod compare;
+mod compare_page;
 mod convert;
 mod export;
 mod failure;
@@ -39,6 +41,8 @@ mod verdict;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
 pub use codes::{CODES, Explanation, codes_json, codes_list, codes_page, codes_text, explanation, explanations};
+pub use compare::{CompareJob, CompareOutputs, ComparedHull, compare_files, compare_outputs};
+pub use compare_page::compare_page;
 pub use convert::{Converted, convert_file, convert_table, is_hull};
 pub use export::{ExportFormat, ExportSettings, Exported, draught_of, export};
 pub use failure::{COMMAND_LINE, Failure};

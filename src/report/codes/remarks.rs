@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 30] = [
+pub(super) const REMARKS: [Explanation; 31] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -219,5 +219,13 @@ pub(super) const REMARKS: [Explanation; 30] = [
         cause: "Nobody stated the form factor or the bulb, and the result depends on it.",
         example: "`resistance configs/wigley.toml --speeds 10:20:2 --method michell`.",
         remedy: "State `--form-factor`, or `--bulb-area` and `--bulb-height`.",
+    },
+    Explanation {
+        code: "W520",
+        title: "Conventions that differ",
+        cause: "The two hulls of `compare` have different conventions, of density say. Those of the first serve for \
+         both.",
+        example: "`loftsman compare a/hull.json b/hull.json` where b is in fresh water.",
+        remedy: "Generate or fit the second hull with the conventions of the first.",
     },
 ];
