@@ -16,6 +16,7 @@ mod cli_refusals;
 mod codes;
 mod compare;
 mod configs;
+mod derive;
 mod draught;
 mod errors;
 mod examples;

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 31] = [
+pub(super) const REMARKS: [Explanation; 33] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -191,6 +191,21 @@ pub(super) const REMARKS: [Explanation; 31] = [
         cause: "Single lines of the fair hull have more inflections than on the surface through the table.",
         example: "`1 line bends more often than before: waterline 0.965 m 4 > 7`.",
         remedy: "Limit their number below `shape.inflections`, or take less smoothing with `--weight`.",
+    },
+    Explanation {
+        code: "W420",
+        title: "Daughter with more inflections",
+        cause: "The hull that `derive` made meets its targets with more inflections of stations and waterlines than its \
+         parent has at the same dimensions.",
+        example: "`loftsman derive configs/wigley.toml --cb 0.56`.",
+        remedy: "Give targets nearer to the parent, free one that is kept, or fair the table of the daughter.",
+    },
+    Explanation {
+        code: "W421",
+        title: "Dimensions alone",
+        cause: "No coefficient is a target of `derive`, so that the daughter is the parent at other dimensions.",
+        example: "`loftsman derive configs/tug.toml --lpp 30 --method affine`.",
+        remedy: "State targets and leave `--method affine` out, where more than the dimensions shall change.",
     },
     Explanation {
         code: "W510",
