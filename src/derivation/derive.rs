@@ -1,18 +1,22 @@
 //! From a parent and a request to a daughter.
 
 use super::affine::scaled;
+use super::inflections::{counted_planes, inflections};
 use super::lackenby::{HalfBody, changes_of_halves, halves};
 use super::limits::{Interval, interval};
 use super::nearest::{Failed, Search};
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
 use super::request::{Method, Origin, Request, Target};
-use super::shift::{Family, LEVEL_FOLD, Settled, level};
+use super::shift::{Ends, Family, LEVEL_FOLD, Settled, level, shifted};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, CurvesOfForm};
+use crate::numeric::join;
 
 /// Part of the amplitude at which a shift folds that the start of the nearest hull takes at most.
 const OF_FOLD: f64 = 0.8;
+/// Parts of the way to the targets that the shift takes, in the order in which they are tried.
+const PARTS: [f64; 3] = [0.5, 1.0, 0.0];
 /// Relative error that a daughter may have.
 const EXACT: f64 = 1e-10;
 
@@ -56,6 +60,8 @@ pub struct Derived {
     pub programs: usize,
     /// Whether the signs of curvature of the parent are kept.
     pub keeps_signs: bool,
+    /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
+    pub inflections: [usize; 2],
 }
 
 /// Derives a daughter; `intervals` says whether what each target can be is computed as well.
@@ -81,6 +87,11 @@ pub fn derive(
         Method::OneMinusPrismatic | Method::Lackenby => job.classical(),
         Method::Nearest => job.nearest(),
     }?;
+    if request.method != Method::Nearest {
+        let planes = counted_planes(&scaled, conventions.stations);
+        let (before, after) = join(|| inflections(&scaled, &planes), || inflections(&derived.hull, &planes));
+        derived.inflections = [before, after];
+    }
     if intervals && request.method == Method::Nearest {
         for k in 0..derived.targets.len() {
             let quantity = targets[k].quantity;
@@ -129,6 +140,7 @@ impl Job<'_> {
             binding: 0,
             programs: 0,
             keeps_signs: false,
+            inflections: [0, 0],
         }
     }
 
@@ -145,31 +157,75 @@ impl Job<'_> {
     }
 
     /// What C_B a shift reaches with both amplitudes at these limits.
-    fn reach(&self, shift: &(dyn Fn(usize, f64, f64) -> f64 + Sync), limits: [[f64; 2]; 2]) -> Option<[f64; 2]> {
+    fn reach(
+        &self,
+        ends: &Ends,
+        shift: &(dyn Fn(usize, f64, f64) -> f64 + Sync),
+        limits: [[f64; 2]; 2],
+    ) -> Option<[f64; 2]> {
         let at = |which: usize| {
             let shift = |side: usize, t: f64| shift(side, t, limits[side][which]);
-            let hull = super::shift::shifted(self.scaled, self.midship(), &shift).ok()?;
+            let hull = shifted(self.scaled, ends, &shift).ok()?;
             Some(value_of(Quantity::Volume, &hull, &self.reference) / self.reference.volume())
         };
         Some([at(0)?, at(1)?])
     }
 
+    /// The hull nearest to starts with different parts of the shift: the first one without more inflections than the scaled
+    /// parent, or the one with the fewest.
     fn nearest(&self) -> Result<Derived, Vec<Refusal>> {
-        let targets = self.of_shift();
+        let planes = counted_planes(self.scaled, self.conventions.stations);
+        let before = inflections(self.scaled, &planes);
+        let mut best: Option<((usize, bool), Derived)> = None;
+        let mut failure = None;
+        for part in PARTS {
+            let (start, amplitudes) = self.started(part);
+            match self.nearest_to(&start, amplitudes) {
+                Ok(derived) => {
+                    let after = inflections(&derived.hull, &planes);
+                    let rank = (after.max(before), !derived.keeps_signs);
+                    let derived = Derived { inflections: [before, after], ..derived };
+                    if best.as_ref().is_none_or(|(other, _)| rank < *other) {
+                        best = Some((rank, derived));
+                    }
+                    // Without a shift all parts are one.
+                    if rank == (before, false) || amplitudes.iter().all(|a| a.abs() < 1e-12) {
+                        break;
+                    }
+                }
+                Err(failed) => failure = failure.or(Some((start, failed))),
+            }
+        }
+        match (best, failure) {
+            (Some((_, derived)), _) => Ok(derived),
+            (None, Some((start, failed))) => Err(self.infeasible(&start, &failed)),
+            (None, None) => Err(Vec::new()),
+        }
+    }
+
+    /// The scaled parent with a level shift that brings volume and LCB so far towards their targets, and its amplitudes.
+    fn started(&self, part: f64) -> (Hull, [f64; 2]) {
+        let towards = |target: &Target| {
+            let before = value_of(target.quantity, self.scaled, &self.reference);
+            Target { value: before + part * (target.value - before), ..*target }
+        };
+        let targets: Vec<Target> = self.of_shift().iter().map(towards).collect();
         let most = OF_FOLD * LEVEL_FOLD;
-        let limits = [[-most, most]; 2];
-        let shift = |_: usize, t: f64, amplitude: f64| level(t, amplitude);
         let family = Family {
             hull: self.scaled,
-            midship: self.midship(),
+            ends: Ends::inside(self.scaled, self.midship()),
             reference: &self.reference,
             targets: &targets,
-            shift: &shift,
-            limits,
+            shift: &|_, t, amplitude| level(t, amplitude),
+            limits: [[-most, most]; 2],
         };
-        let settled = family.settle([0.0; 2]);
-        let (start, amplitudes) = settled.map_or((self.scaled.clone(), [0.0; 2]), |s| (s.hull, s.amplitudes));
-        let mut search = Search::new(self.scaled, &start, &self.reference, self.targets);
+        let settled = family.settle([0.0; 2]).filter(|_| part > 0.0);
+        settled.map_or((self.scaled.clone(), [0.0; 2]), |settled| (settled.hull, settled.amplitudes))
+    }
+
+    /// The hull nearest to a start, with the signs of curvature of the parent where they are feasible.
+    fn nearest_to(&self, start: &Hull, amplitudes: [f64; 2]) -> Result<Derived, Failed> {
+        let mut search = Search::new(self.scaled, start, &self.reference, self.targets);
         let mut keeps_signs = true;
         let mut found = search.run();
         if found.is_err() {
@@ -177,12 +233,13 @@ impl Job<'_> {
             search.without_signs();
             found = search.run();
         }
-        let nearest = found.map_err(|failed| self.infeasible(&start, &failed))?;
-        let fold = [[-LEVEL_FOLD; 2], [LEVEL_FOLD; 2]];
+        let nearest = found?;
+        let ends = Ends::inside(self.scaled, self.midship());
+        let at_fold = [[-0.999 * LEVEL_FOLD, 0.999 * LEVEL_FOLD]; 2];
         Ok(Derived {
             targets: self.reached(&nearest.hull, Some(&nearest.prices)),
-            shift: Some([amplitudes, fold[0], fold[1]]),
-            shift_reach: self.reach(&shift, [[-0.999 * LEVEL_FOLD, 0.999 * LEVEL_FOLD]; 2]),
+            shift: Some([amplitudes, [-LEVEL_FOLD; 2], [LEVEL_FOLD; 2]]),
+            shift_reach: self.reach(&ends, &|_, t, amplitude| level(t, amplitude), at_fold),
             energy: nearest.energy,
             gap: nearest.gap,
             binding: nearest.binding,
@@ -282,11 +339,12 @@ impl Job<'_> {
             }
         };
         let targets = self.of_shift();
+        let ends = Ends::upright(midship, [bodies[0].length, bodies[1].length]);
         let family =
-            Family { hull: self.scaled, midship, reference: &self.reference, targets: &targets, shift: &shift, limits };
+            Family { hull: self.scaled, ends, reference: &self.reference, targets: &targets, shift: &shift, limits };
         let start = self.first_pass(&bodies, &targets, grown);
         let settled = family.settle(if lackenby { start } else { [0.5 * (start[0] + start[1]); 2] });
-        let reach = self.reach(&shift, limits);
+        let reach = self.reach(&ends, &shift, limits);
         let folds = |settled: Option<&Settled>| self.folds(settled, limits, reach, &targets);
         let settled = match settled {
             Some(settled) if settled.error <= EXACT => settled,

@@ -91,14 +91,14 @@ impl HalfBody {
             return parallel * x / p;
         }
         let steep = (change - parallel * (1.0 - self.prismatic) / (1.0 - p)) / self.a();
-        (1.0 - x).max(0.0) * (parallel / (1.0 - p) + (x - p) * steep)
+        (1.0 - x) * (parallel / (1.0 - p) + (x - p) * steep)
     }
 
     /// dx(x) of one minus prismatic; within the parallel body in proportion.
     #[must_use]
     pub fn one_minus_prismatic(&self, x: f64, change: f64) -> f64 {
         let (p, c) = (self.parallel, change / (1.0 - self.prismatic));
-        if x < p { c * (1.0 - p) * x / p } else { c * (1.0 - x).max(0.0) }
+        if x < p { c * (1.0 - p) * x / p } else { c * (1.0 - x) }
     }
 
     /// Changes of phi at which the shift of Lackenby folds with a change of p by `parallel`: at the end for +, at the

@@ -5,6 +5,7 @@
 //! rounding goes. KM and wetted surface are linearised.
 
 use super::nearest::{Search, with_breadths};
+use super::pool::Kind;
 use super::quantity::{Quantity, Reference, equation, value_of};
 use super::request::Target;
 use crate::hull::Hull;
@@ -35,7 +36,8 @@ impl Interval {
     }
 }
 
-/// The interval of `quantity` with the `others` given; none where they alone are infeasible.
+/// The interval of `quantity` with the `others` given; none where they alone are infeasible. Where the signs of curvature of the
+/// parent are, it is that without them.
 pub(super) fn interval(
     parent: &Hull,
     start: &Hull,
@@ -43,22 +45,37 @@ pub(super) fn interval(
     quantity: Quantity,
     others: &[Target],
 ) -> Option<Interval> {
-    let ends = [1.0, -1.0].map(|way| {
-        let mut search = Search::new(parent, start, reference, others);
-        // A linear program needs its limits from the beginning.
-        for (taken, candidate) in search.taken.iter_mut().zip(&search.candidates) {
-            *taken = candidate.kind != super::pool::Kind::Sign;
-        }
-        let equations = search.equations(start);
-        let now = value_of(quantity, start, reference);
-        let gradient = equation(quantity, now, start, reference).gradient;
-        let unit = search.unit;
-        let towards: Vec<f64> = search.freedom.gradient(&gradient).iter().map(|g| way * unit * g).collect();
-        let base = search.base.clone();
-        let answer = search.solve(&equations, &base, Some(&towards)).ok()?;
-        let hull = with_breadths(start, &answer.y).ok()?;
-        Some(value_of(quantity, &hull, reference))
-    });
-    let [low, high] = [ends[0]?, ends[1]?];
+    let of = |signs: bool| {
+        let end = |way: f64| extreme(parent, start, reference, (quantity, way), others, signs);
+        Some([end(1.0)?, end(-1.0)?])
+    };
+    let [low, high] = of(true).or_else(|| of(false))?;
     Some(Interval { quantity, low: low.min(high), high: high.max(low) })
+}
+
+/// The least value of `quantity`, or the greatest for a `way` of -1.
+fn extreme(
+    parent: &Hull,
+    start: &Hull,
+    reference: &Reference,
+    (quantity, way): (Quantity, f64),
+    others: &[Target],
+    signs: bool,
+) -> Option<f64> {
+    let mut search = Search::new(parent, start, reference, others);
+    if !signs {
+        search.without_signs();
+    }
+    // A linear program needs its limits from the beginning.
+    for (taken, candidate) in search.taken.iter_mut().zip(&search.candidates) {
+        *taken = candidate.kind != Kind::Sign;
+    }
+    let equations = search.equations(start);
+    let now = value_of(quantity, start, reference);
+    let gradient = equation(quantity, now, start, reference).gradient;
+    let towards: Vec<f64> = search.freedom.gradient(&gradient).iter().map(|g| way * search.unit * g).collect();
+    let base = search.base.clone();
+    let answer = search.solve(&equations, &base, Some(&towards)).ok()?;
+    let hull = with_breadths(start, &answer.y).ok()?;
+    Some(value_of(quantity, &hull, reference))
 }

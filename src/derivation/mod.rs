@@ -8,6 +8,7 @@
 mod affine;
 mod bending;
 mod derive;
+mod inflections;
 mod lackenby;
 mod limits;
 mod nearest;
@@ -19,6 +20,7 @@ mod shift;
 
 pub use affine::scaled;
 pub use derive::{Derived, Reached, derive};
+pub use inflections::{counted_planes, inflections};
 pub use lackenby::{HalfBody, ShiftLimit, changes_of_halves};
 pub use limits::Interval;
 pub use quantity::{Quantity, Reference, value_of};

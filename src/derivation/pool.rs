@@ -155,12 +155,11 @@ fn row_of(
     let up: [[f64; MAX_DEGREE + 1]; 3] = surface.v().basis_derivatives::<3>(span_v, v);
     let columns = surface.shape()[1];
     let mut row = Vec::with_capacity((p + 1) * (q + 1));
-    for i in 0..=p {
-        for j in 0..=q {
-            let parts = orders.iter().zip(weights).map(|([a, b], weight)| weight * along[*a][i] * up[*b][j]);
-            row.push(((span_u - p + i) * columns + span_v - q + j, parts.sum()));
-        }
-    }
+    let points = (0..=p).flat_map(|i| (0..=q).map(move |j| (i, j)));
+    row.extend(points.map(|(i, j)| {
+        let parts = orders.iter().zip(weights).map(|([a, b], weight)| weight * along[*a][i] * up[*b][j]);
+        ((span_u - p + i) * columns + span_v - q + j, parts.sum())
+    }));
     row
 }
 

@@ -71,7 +71,7 @@ impl<'a> Target<'a> {
     }
 
     /// Square of the distance of a point from the side, and whether it is outside of it.
-    fn from_side(&self, point: [f64; 3]) -> (f64, bool) {
+    fn to_side(&self, point: [f64; 3]) -> (f64, bool) {
         let square = |p: &[f64; 3]| dot(minus(*p, point), minus(*p, point));
         let start = self.grid.iter().map(|(at, p)| (square(p), *at)).min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((mut best, mut at)) = start else { return (f64::INFINITY, false) };
@@ -101,7 +101,7 @@ impl<'a> Target<'a> {
     }
 
     /// Square of the distance from the faces between an edge and the centreplane.
-    fn from_faces(&self, [x, y, z]: [f64; 3]) -> f64 {
+    fn to_faces(&self, [x, y, z]: [f64; 3]) -> f64 {
         let chord = |w: &[[f64; 3]]| {
             let (dx, dz) = (w[1][0] - w[0][0], w[1][2] - w[0][2]);
             let size = dx * dx + dz * dz;
@@ -162,8 +162,8 @@ pub fn surface_distance(hull: &Hull, other: &Hull) -> Option<SurfaceDistance> {
             }
             let normal = cross(t.du, t.dv);
             let weight = dot(normal, normal).sqrt() * along * up;
-            let (side, outside) = target.from_side(t.point);
-            let faces = target.from_faces(t.point);
+            let (side, outside) = target.to_side(t.point);
+            let faces = target.to_faces(t.point);
             let square = side.min(faces);
             area += weight;
             result.rms += weight * square;

@@ -87,8 +87,12 @@ pub fn compared_body_plans(compared: &ComparedHulls<'_>) -> Result<Svg, PlotErro
 }
 
 fn joined(names: [&str; 2]) -> String {
-    let short = names.map(|name| caption::plain(name).chars().take(18).collect::<String>());
-    if short[0] == short[1] { short[0].clone() } else { short.join(" / ") }
+    let [first, second] = names.map(caption::plain);
+    // A daughter bears the name of its parent.
+    if second.starts_with(&first) {
+        return second;
+    }
+    [first, second].map(|name| name.chars().take(18).collect::<String>()).join(" / ")
 }
 
 /// Base line, centre line, and both waterlines with their draughts.

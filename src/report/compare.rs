@@ -95,6 +95,9 @@ impl CompareOutputs {
     }
 }
 
+/// Rows at common draughts, that at the draught of the hull, warnings.
+type Rows = (Vec<Hydrostatics>, Option<Hydrostatics>, Vec<String>);
+
 /// A body that was read, with the hull for sections and distances.
 struct Opened {
     body: HydrostaticBody,
@@ -132,7 +135,7 @@ pub fn compare_outputs(job: &CompareJob) -> Result<CompareOutputs, Failure> {
     let notes = first.body.notes.iter().chain(&second.body.notes).filter(|note| !warnings.contains(note));
     let notes = notes.cloned().collect();
     let common = common_draughts(&first.body, &second.body)?;
-    let rows = |opened: &Opened| -> Result<(Vec<Hydrostatics>, Option<Hydrostatics>, Vec<String>), Failure> {
+    let rows = |opened: &Opened| -> Result<Rows, Failure> {
         let stated = opened.body.particulars.draught;
         let list: Vec<f64> = common.iter().copied().chain(stated).collect();
         let own = Conventions { assumed: opened.body.conventions.assumed, ..conventions };

@@ -16,7 +16,6 @@ use crate::exchange::{
     DeriveReport, DerivedTarget, SummaryFile, TargetLine, conventions_json, derive_json, heights_csv, hydrostatics_csv,
     offsets_csv, row_json, write_hull,
 };
-use crate::fairing::inspect::{Planes, Resolution, Traced};
 use crate::hull::{
     Hull, OffsetStation, OffsetTable, SurfaceDistance, default_buttocks, default_stations, default_waterlines,
     surface_distance,
@@ -193,12 +192,6 @@ impl DeriveJob {
     }
 }
 
-/// Inflections of the stations and waterlines of a hull, at planes of `planes`.
-fn inflections(hull: &Hull, planes: &Planes) -> usize {
-    let band = Resolution::for_length(hull.particulars().length_between_perpendiculars).tolerance();
-    Traced::new(hull, planes).counts(band).iter().map(|(_, counts)| counts.inflections).sum()
-}
-
 fn target(reached: &Reached) -> DerivedTarget {
     let quantity = reached.target.quantity;
     DerivedTarget {
@@ -230,24 +223,18 @@ pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutpu
     };
     let derived = derive(&parent, &job.request(&parent, &conventions), &conventions, job.intervals)
         .map_err(|refusals| job.refused(refusals))?;
-    let planes = Planes {
-        stations: default_stations(&derived.hull, conventions.stations).into_iter().map(|s| s.x).collect(),
-        waterlines: default_waterlines(&derived.hull),
-        ..Planes::default()
-    };
-    let (before, after) = join(|| inflections(&derived.scaled, &planes), || inflections(&derived.hull, &planes));
-    let warnings = warnings(job, &derived, [before, after]);
+    let warnings = warnings(job, derived.inflections);
     let targets: Vec<DerivedTarget> = derived.targets.iter().map(target).collect();
     let conventions = Conventions { given: Given { draught: Some(true), ..conventions.given }, ..conventions };
     let made = Made { job, parent: &parent, derived: &derived, conventions, targets: &targets, warnings: &warnings };
     let (comparison, moved) = join(|| made.comparison(), || surface_distance(&derived.hull, &derived.scaled));
     let outputs = made.outputs(figures)?;
     let method = job.method();
-    let inflections = [before, after];
+    let inflections = derived.inflections;
     Ok(DeriveOutputs { outputs, method, comparison, targets, inflections, moved, warnings, notes, derived })
 }
 
-fn warnings(job: &DeriveJob, derived: &Derived, [before, after]: [usize; 2]) -> Vec<String> {
+fn warnings(job: &DeriveJob, [before, after]: [usize; 2]) -> Vec<String> {
     let warning = |code: &'static str, message: String, help: &str| {
         Diagnostic { severity: Severity::Warning, ..problem(code, &job.parent, message, help) }.to_string()
     };
@@ -255,12 +242,7 @@ fn warnings(job: &DeriveJob, derived: &Derived, [before, after]: [usize; 2]) -> 
     let message =
         || format!("the daughter has {after} inflections of stations and waterlines, its scaled parent {before}");
     let help = "Give targets nearer to the parent, free one that is kept, or fair the table of the daughter";
-    let mut list: Vec<String> = more.then(|| warning("W420", message(), help)).into_iter().collect();
-    if derived.targets.is_empty() {
-        let message = "no coefficient is a target: the daughter is the parent at other dimensions".to_owned();
-        list.push(warning("W421", message, "Take another --method, or state targets"));
-    }
-    list
+    more.then(|| warning("W420", message(), help)).into_iter().collect()
 }
 
 /// What the files of a daughter are made of.

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 33] = [
+pub(super) const REMARKS: [Explanation; 32] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -199,13 +199,6 @@ pub(super) const REMARKS: [Explanation; 33] = [
          parent has at the same dimensions.",
         example: "`loftsman derive configs/wigley.toml --cb 0.56`.",
         remedy: "Give targets nearer to the parent, free one that is kept, or fair the table of the daughter.",
-    },
-    Explanation {
-        code: "W421",
-        title: "Dimensions alone",
-        cause: "No coefficient is a target of `derive`, so that the daughter is the parent at other dimensions.",
-        example: "`loftsman derive configs/tug.toml --lpp 30 --method affine`.",
-        remedy: "State targets and leave `--method affine` out, where more than the dimensions shall change.",
     },
     Explanation {
         code: "W510",
