@@ -102,6 +102,7 @@
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod config;
+pub mod derivation;
 pub mod exchange;
 pub mod fairing;
 pub mod hull;

@@ -6,6 +6,8 @@
 //! | [`fit`] | a table of offsets | the surface through it |
 //! | [`fair`] | a table of offsets, or a job file | the fair hull, what moved, the certificate |
 //! | [`fair_curve`] | the points of a curve | the fair curve |
+//! | [`derive`] | a parent: any hull, table, design, mesh or CAD file | the daughter with other dimensions and coefficients |
+//! | [`compare`] | two of them | particulars, hydrostatics and distances beside each other |
 //! | [`hydrostatics`] | any hull, table, mesh or CAD file | hydrostatics at any draughts |
 //! | [`open`] | the same | the hull, for [`sections`] and [`export`] |
 //! | [`report`] | the folder of a result | figures and pages |
@@ -32,13 +34,15 @@ pub use crate::fairing::curve::CurveSettings;
 pub use crate::hull::{Cut, Hull, OffsetTable, Section};
 pub use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 pub use crate::report::{
-    CurveJob, ExportFormat, ExportSettings, Exported, Failure, FairOutputs, FairedCurve, FitOutputs, OutputFile,
-    Outputs, ReportSettings, Source,
+    CompareOutputs, CurveJob, DeriveOutputs, ExportFormat, ExportSettings, Exported, Failure, FairOutputs, FairedCurve,
+    FitOutputs, OutputFile, Outputs, ReportSettings, Source,
 };
 
+use crate::config::{DeriveFile, read_derive_option};
 use crate::report::{
-    Destination, Inputs, fair_outputs, faired_curve, fit_outputs, generate_outputs, read_design, read_fair, read_fit,
-    read_hydrostatic_body, read_result, read_source, report_outputs, sections_of,
+    CompareJob, Destination, Inputs, Overrides, compare_outputs, derive_outputs, fair_outputs, faired_curve,
+    fit_outputs, generate_outputs, read_derive_job, read_design, read_fair, read_fit, read_hydrostatic_body,
+    read_result, read_source, report_outputs, sections_of,
 };
 
 /// Hydrostatics of a body, and what should be known about it.
@@ -79,6 +83,30 @@ pub fn fit(table: impl AsRef<Path>) -> Result<FitOutputs, Failure> {
 pub fn fair(table: impl AsRef<Path>, settings: &[(&str, &str)]) -> Result<FairOutputs, Failure> {
     let settings: Vec<_> = settings.iter().map(|&(key, value)| (key, key, value.to_owned())).collect();
     fair_outputs(&read_fair(table.as_ref(), &settings)?, false)
+}
+
+/// The daughter of a parent: any hull, table, design, mesh or CAD file, or a job file with `[derive]`. `wanted` are keys of
+/// such a file with their values, as `("Cb", "0.72")` or `("LCB", "+0.8 %")`; what is not named is kept. No figures are
+/// drawn.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] and [`Failure::Options`] for values that are wrong; [`Failure::Infeasible`]
+/// where no daughter meets the targets, with what is within reach.
+pub fn derive(parent: impl AsRef<Path>, wanted: &[(&str, &str)]) -> Result<DeriveOutputs, Failure> {
+    let mut options = DeriveFile::default();
+    for &(key, value) in wanted {
+        options = options.over(read_derive_option(key, key, value).map_err(Failure::Options)?);
+    }
+    derive_outputs(&read_derive_job(parent.as_ref(), options, Overrides::default(), false)?, &[])
+}
+
+/// Two hulls, tables, designs, meshes or CAD files beside each other, each at its own draught.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the files; [`Failure::Infeasible`] of a design.
+pub fn compare(first: impl AsRef<Path>, second: impl AsRef<Path>) -> Result<CompareOutputs, Failure> {
+    let hulls = [first.as_ref().to_owned(), second.as_ref().to_owned()];
+    compare_outputs(&CompareJob { hulls, overrides: Overrides::default(), draught: None })
 }
 
 /// Fairs one curve: a waterline, a sheer line, a curve of sectional areas. Its points stand in a file of two columns.

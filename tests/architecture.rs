@@ -3,7 +3,7 @@
 use crate::support::{carried, read_text, sources};
 
 /// Every module with its floor.
-const FLOORS: [(&str, usize); 16] = [
+const FLOORS: [(&str, usize); 17] = [
     ("numeric", 0),
     ("units", 0),
     ("spline", 1),
@@ -13,6 +13,7 @@ const FLOORS: [(&str, usize); 16] = [
     ("parametric", 4),
     ("resistance", 4),
     ("fairing", 4),
+    ("derivation", 5),
     ("config", 5),
     ("exchange", 5),
     ("plot", 5),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use loftsman::config::{JOB_KEYS, KEYS, Key, METHOD_KEYS};
+use loftsman::config::{DERIVE_KEYS, JOB_KEYS, KEYS, Key, METHOD_KEYS};
 use loftsman::hydrostatics::QUANTITIES;
 
 use crate::support::{carried, commands, files_of, program, read_text, stdout};
@@ -142,7 +142,7 @@ fn keys(title: &str, about: &str, keys: &[Key]) -> String {
 }
 
 /// Pages that are made from the lists of the program.
-fn made() -> [(&'static str, String); 4] {
+fn made() -> [(&'static str, String); 5] {
     let quantities =
         QUANTITIES.iter().map(|q| format!("| `{}` | {} | {} | {} |\n", q.key, q.name, q.unit, q.definition));
     let quantities = quantities.collect::<String>();
@@ -154,6 +154,14 @@ fn made() -> [(&'static str, String); 4] {
         (
             "job-keys",
             keys("Keys of the job file", "`fair` reads them; options of the command override them.", JOB_KEYS),
+        ),
+        (
+            "derive-keys",
+            keys(
+                "Keys of the job file of derive",
+                "`derive` reads them; options of the command override them.",
+                DERIVE_KEYS,
+            ),
         ),
         ("method-keys", keys("Keys of the method file", "`fit` reads them.", METHOD_KEYS)),
         (

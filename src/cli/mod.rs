@@ -2,8 +2,10 @@
 //! returned by a library function.
 
 mod check;
+mod compare;
 mod completions;
 mod convert;
+mod derive;
 mod explain;
 mod export;
 mod fair;
@@ -76,6 +78,10 @@ enum Command {
     Hydro(hydro::Arguments),
     /// Calm-water resistance and effective power of a hull: Holtrop and Mennen, Michell, ITTC-57
     Resistance(Box<resistance::Arguments>),
+    /// Derive a hull from a parent: other dimensions, displacement, coefficients and centres, all exact
+    Derive(Box<derive::Arguments>),
+    /// Two hulls beside each other: particulars, hydrostatics in per cent, distances, body plans
+    Compare(compare::Arguments),
     /// Table of offsets of a hull at any stations and waterlines
     Offsets(offsets::Arguments),
     /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB, panels as GDF, NEMOH, PNL, sections
@@ -182,6 +188,8 @@ fn command(arguments: &[OsString]) -> Result<(), Failure> {
         Command::Schema(arguments) => schema::run(arguments),
         Command::Hydro(arguments) => hydro::run(arguments),
         Command::Resistance(arguments) => resistance::run(arguments),
+        Command::Derive(arguments) => derive::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
         Command::Offsets(arguments) => offsets::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),

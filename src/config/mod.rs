@@ -4,6 +4,7 @@
 //! expected and the remedy. [`KEYS`] is the one list of keys: reading, messages, the JSON Schema and the templates of
 //! `loftsman new` come from it.
 
+mod derive;
 mod design;
 mod design_targets;
 mod diagnostic;
@@ -16,6 +17,7 @@ mod schema;
 mod template;
 mod value;
 
+pub use derive::{DERIVE_KEYS, DeriveFile, read_derive, read_derive_option};
 pub use design::{Design, Output, read};
 pub use diagnostic::{Diagnostic, Severity};
 pub use job::{JOB_KEYS, JobFile, Location, Quantity, RuleEntry, TableItem, TableRef, Target, read_job, read_option};

@@ -31,6 +31,9 @@ pub struct Manifest {
     pub version: &'static str,
     /// The design that was read.
     pub input: ManifestEntry,
+    /// What was read besides.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub others: Vec<ManifestEntry>,
     /// The files that were written, in the order of their names; the manifest itself is not among them.
     pub outputs: Vec<ManifestEntry>,
 }
@@ -74,8 +77,13 @@ mod tests {
     #[test]
     fn outputs_are_read_back_from_manifests_only() {
         let outputs = vec![ManifestEntry::new("a.png", b"a")];
-        let mut manifest =
-            Manifest { program: "loftsman", version: "1", input: ManifestEntry::new("a.toml", b""), outputs };
+        let mut manifest = Manifest {
+            program: "loftsman",
+            version: "1",
+            input: ManifestEntry::new("a.toml", b""),
+            others: Vec::new(),
+            outputs,
+        };
         let text = |manifest: &Manifest| serde_json::to_string(manifest).unwrap();
         assert_eq!(read_manifest_outputs(&text(&manifest)), manifest.outputs);
         manifest.program = "other";

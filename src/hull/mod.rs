@@ -9,6 +9,7 @@ mod cell;
 mod chart;
 mod charted;
 mod diagonal;
+mod distance;
 mod fit;
 mod form;
 mod functional;
@@ -32,6 +33,7 @@ pub use brep::{Brep, BrepEdge, BrepFace, BrepMesh, Conic, FaceFault, FaceSurface
 pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written};
 pub(crate) use charted::advance;
 pub use diagonal::diagonal_offset;
+pub use distance::{SurfaceDistance, surface_distance};
 pub use fit::{
     CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, Outermost, ParametricStations,
     PointResidual, QuadraticNet, SettingProblem, SettingProblems, Thinned, UniformBicubic, VolumeEstimate, carried_on,

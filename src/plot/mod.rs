@@ -9,6 +9,7 @@ mod canvas;
 mod caption;
 mod chart;
 mod comb;
+mod comparison;
 mod convergence;
 mod deviation;
 mod diagram_sheet;
@@ -68,6 +69,7 @@ mod view;
 mod zero_lines;
 
 pub use bonjean::{BonjeanTable, bonjean_figure};
+pub use comparison::{ComparedHulls, compared_areas, compared_body_plans};
 pub use convergence::convergence_figure;
 pub use deviation::deviation_figure;
 pub use fair_curve::{CurveSheet, fair_curve_figure};

@@ -186,10 +186,20 @@ pub(super) fn manifest_entry(path: &Path, bytes: &[u8]) -> ManifestEntry {
 
 /// The manifest of a run that wrote `files`.
 pub(super) fn manifest_file(input: ManifestEntry, files: &[OutputFile]) -> Result<OutputFile, Failure> {
+    manifest_of(input, Vec::new(), files)
+}
+
+/// The manifest of a run that read `others` besides.
+pub(super) fn manifest_of(
+    input: ManifestEntry,
+    others: Vec<ManifestEntry>,
+    files: &[OutputFile],
+) -> Result<OutputFile, Failure> {
     let manifest = Manifest {
         program: env!("CARGO_PKG_NAME"),
         version: env!("CARGO_PKG_VERSION"),
         input,
+        others,
         outputs: files.iter().map(|file| ManifestEntry::new(&file.name, &file.contents)).collect(),
     };
     json_file("manifest.json", &manifest)

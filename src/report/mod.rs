@@ -3,7 +3,11 @@
 mod check;
 mod codes;
 mod comb_lines;
+mod compare;
+mod compare_page;
 mod convert;
+mod derive;
+mod derive_page;
 mod doubts;
 mod export;
 mod failure;
@@ -40,7 +44,11 @@ mod verdict;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
 pub use codes::{CODES, Explanation, codes_json, codes_list, codes_page, codes_text, explanation, explanations};
+pub use compare::{CompareJob, CompareOutputs, ComparedHull, compare_files, compare_outputs};
+pub use compare_page::compare_page;
 pub use convert::{Converted, convert_file, convert_table, is_hull};
+pub use derive::{DeriveJob, DeriveOutputs, derive_files, derive_outputs, read_derive_job};
+pub use derive_page::derive_page;
 pub use export::{ExportFormat, ExportSettings, Exported, draught_of, export};
 pub use failure::{COMMAND_LINE, Failure};
 pub use fair::{FairJob, FairOutputs, fair_outputs, fair_outputs_with_progress, read_fair};

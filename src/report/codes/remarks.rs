@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 36] = [
+pub(super) const REMARKS: [Explanation; 38] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -229,6 +229,14 @@ pub(super) const REMARKS: [Explanation; 36] = [
         remedy: "Limit their number below `shape.inflections`, or take less smoothing with `--weight`.",
     },
     Explanation {
+        code: "W420",
+        title: "Daughter with more inflections",
+        cause: "The hull that `derive` made meets its targets with more inflections of stations and waterlines than its \
+         parent has at the same dimensions.",
+        example: "`loftsman derive configs/wigley.toml --cb 0.56`.",
+        remedy: "Give targets nearer to the parent, free one that is kept, or fair the table of the daughter.",
+    },
+    Explanation {
         code: "W510",
         title: "Speeds outside the range of the data",
         cause: "Figures of a statistical method are extrapolated: a Froude number or a coefficient is outside the range of its data.",
@@ -263,5 +271,13 @@ pub(super) const REMARKS: [Explanation; 36] = [
          of the hull.",
         example: "`volume 4.73 m3, -3.8e-01 of the hull's`.",
         remedy: "Take a smaller `--deviation`, or a format of surfaces.",
+    },
+    Explanation {
+        code: "W520",
+        title: "Conventions that differ",
+        cause: "The two hulls of `compare` have different conventions, of density say. Those of the first serve for \
+         both.",
+        example: "`loftsman compare a/hull.json b/hull.json` where b is in fresh water.",
+        remedy: "Generate or fit the second hull with the conventions of the first.",
     },
 ];

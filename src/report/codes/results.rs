@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const RESULTS: [Explanation; 17] = [
+pub(super) const RESULTS: [Explanation; 20] = [
     Explanation {
         code: "E401",
         title: "Infeasible targets",
@@ -32,6 +32,30 @@ pub(super) const RESULTS: [Explanation; 17] = [
          written is a compromise.",
         example: "`loftsman fair-curve curve.csv --area 200 --tolerance \"1 mm\"` for a curve of 36 m2.",
         remedy: "Give the tolerance of the message, or a target within the stated interval.",
+    },
+    Explanation {
+        code: "E420",
+        title: "Daughter out of reach",
+        cause: "No daughter of this parent meets the targets of `derive` together. Sections would pass each other, or \
+         half-breadths the centreplane or the breadth.",
+        example: "`loftsman derive configs/tug.toml --cb 0.9`.",
+        remedy: "Take the nearest value of the message, free a target that is kept, or take another parent.",
+    },
+    Explanation {
+        code: "E421",
+        title: "Value that no ship has",
+        cause: "A target of `derive` is outside of what any hull of these dimensions has: C_B above 1, or a centre beyond \
+         the ends.",
+        example: "`loftsman derive configs/tug.toml --displacement \"9000 t\"` for a tug of 28 m.",
+        remedy: "Correct the value, or its unit. The message states the limits.",
+    },
+    Explanation {
+        code: "E422",
+        title: "Target that the method does not take",
+        cause: "The method of `derive` changes other quantities than this one, or two targets that it takes exclude each \
+         other.",
+        example: "`loftsman derive configs/tug.toml --cwp 0.8 --method lackenby`.",
+        remedy: "Take `--method nearest`, or leave the target out.",
     },
     Explanation {
         code: "E501",

@@ -1,0 +1,147 @@
+//! The parent at other main dimensions.
+//!
+//! x grows by L/L0 and y by B/B0. Heights grow by s = T/T0 up to the design waterline, and the depth becomes D: with T/T0 =
+//! D/D0 all of it is one scale, so that C_B, C_M, C_WP, the centres in parts of the dimensions and BM T / B^2 stay (the
+//! affine laws). Otherwise the slope of the map of heights goes from s at the waterline to r at the deck,
+//!
+//! ```text
+//! f' = s + (r - s) (3 w^2 - 2 w^3),   w = (z - z1) / (D0 - z1),   r = s + 2 (D - s D0) / (D0 - z1)
+//! ```
+//!
+//! with z1 the highest control height that bears on the immersed part, so that this part is scaled as a whole. It is twice
+//! differentiable, and rises as long as r > 0.
+
+use super::refusal::Refusal;
+use super::request::Dimensions;
+use crate::hull::{Hull, PrincipalParticulars};
+use crate::spline::{BsplineCurve, BsplineSurface};
+
+/// Part of the way from T to D that the change of slope has at least.
+const LEAST_WAY: f64 = 0.15;
+
+/// The map of heights.
+#[derive(Debug, Clone, Copy)]
+struct Heights {
+    scale: f64,
+    top_slope: f64,
+    from: f64,
+    depth: f64,
+}
+
+impl Heights {
+    fn at(&self, z: f64) -> f64 {
+        let way = self.depth - self.from;
+        let w = ((z - self.from) / way).max(0.0);
+        let inner = w.min(1.0);
+        // The integral of 3 w^2 - 2 w^3.
+        let grown = inner.powi(3) - 0.5 * inner.powi(4) + (w - inner);
+        self.scale * z + (self.top_slope - self.scale) * way * grown
+    }
+}
+
+/// The greatest control height that bears on what is below T; T where that leaves too little of the side above.
+fn highest_wetted(hull: &Hull, draught: f64, depth: f64) -> f64 {
+    let surface = hull.surface();
+    let height = hull.height_parameter(draught).map(|v| surface.point(0, surface.v().find_span(v))[2]);
+    height.filter(|z| *z > draught && *z < draught + (1.0 - LEAST_WAY) * (depth - draught)).unwrap_or(draught)
+}
+
+/// The hull at other dimensions; what is not named is kept.
+///
+/// # Errors
+/// [`Refusal`] where the deck would fold below the waterline, or the dimensions are none of a hull.
+pub fn scaled(parent: &Hull, dimensions: &Dimensions) -> Result<Hull, Refusal> {
+    let old = *parent.particulars();
+    let Some(old_draught) = old.draught else { return Err(Refusal::no_draught()) };
+    let draught = dimensions.draught.unwrap_or(old_draught);
+    let new = PrincipalParticulars {
+        length_between_perpendiculars: dimensions.length.unwrap_or(old.length_between_perpendiculars),
+        breadth: dimensions.breadth.unwrap_or(old.breadth),
+        draught: Some(draught),
+        depth: dimensions.depth.unwrap_or(old.depth),
+    };
+    let along = new.length_between_perpendiculars / old.length_between_perpendiculars;
+    let across = new.breadth / old.breadth;
+    let scale = draught / old_draught;
+    let uniform = (new.depth - scale * old.depth).abs() <= 1e-12 * new.depth;
+    let from = highest_wetted(parent, old_draught, old.depth);
+    let top_slope = if uniform {
+        scale
+    } else {
+        scale + 2.0 * (new.depth - scale * old.depth) / (old.depth - from).max(1e-9 * old.depth)
+    };
+    if new.draught_exceeds_depth() || top_slope <= 0.0 {
+        let least = scale * (old.depth - 0.5 * (old.depth - from));
+        return Err(Refusal::depth(new.depth, least.max(draught), draught));
+    }
+    let heights = Heights { scale, top_slope, from, depth: old.depth };
+    let surface = parent.surface();
+    let points = surface.points().iter().map(|[x, y, z]| [along * x, across * y, heights.at(*z)]).collect();
+    let deck = parent.deck().points().iter().map(|[x, z]| [along * x, heights.at(*z)]).collect();
+    let deck = BsplineCurve::new(parent.deck().knots().clone(), deck).map_err(|error| Refusal::hull(&error))?;
+    let surface = BsplineSurface::new(surface.u().clone(), surface.v().clone(), points);
+    let surface = surface.map_err(|error| Refusal::hull(&error))?;
+    Hull::new(parent.name(), new, surface, deck).map_err(|error| Refusal::hull(&error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::quantity::{Quantity, Reference, value_of};
+    use super::*;
+    use crate::derivation::samples::tug;
+    use crate::hydrostatics::Conventions;
+
+    /// L, B and T, D by one factor: volumes grow as L B T, C_M and C_WP stay, centres stay in parts of L and T, BM grows as
+    /// B^2 / T.
+    #[test]
+    fn affine_laws() {
+        let parent = tug();
+        let p = *parent.particulars();
+        let (l, b, z) = (1.13, 0.91, 1.07);
+        let dimensions = Dimensions {
+            length: Some(l * p.length_between_perpendiculars),
+            breadth: Some(b * p.breadth),
+            draught: p.draught.map(|t| z * t),
+            depth: Some(z * p.depth),
+        };
+        let hull = scaled(&parent, &dimensions).unwrap();
+        let conventions = Conventions::default();
+        let of = |hull: &Hull, quantity| value_of(quantity, hull, &Reference::of(hull, &conventions).unwrap());
+        let ratio = |quantity| of(&hull, quantity) / of(&parent, quantity);
+        let bm = |hull: &Hull| of(hull, Quantity::Km) - of(hull, Quantity::Kb);
+        for (found, expected) in [
+            (ratio(Quantity::Volume), l * b * z),
+            (ratio(Quantity::MidshipCoefficient), 1.0),
+            (ratio(Quantity::PrismaticCoefficient), 1.0),
+            (ratio(Quantity::WaterplaneCoefficient), 1.0),
+            (ratio(Quantity::Lcb), l),
+            (ratio(Quantity::Lcf), l),
+            (ratio(Quantity::Kb), z),
+            (bm(&hull) / bm(&parent), b * b / z),
+        ] {
+            assert!((found - expected).abs() < 1e-10, "{found} {expected}");
+        }
+    }
+
+    /// Another depth alone leaves what is immersed as it is.
+    #[test]
+    fn the_depth_alone_is_that_of_the_topside() {
+        let parent = tug();
+        let depth = 1.12 * parent.particulars().depth;
+        let hull = scaled(&parent, &Dimensions { depth: Some(depth), ..Dimensions::default() }).unwrap();
+        let middle = 0.5 * hull.particulars().length_between_perpendiculars;
+        assert!((hull.deck_height(middle) - depth).abs() < 1e-9, "{}", hull.deck_height(middle));
+        let conventions = Conventions::default();
+        for quantity in [Quantity::Volume, Quantity::Lcb, Quantity::WaterplaneCoefficient] {
+            let of = |hull: &Hull| value_of(quantity, hull, &Reference::of(hull, &conventions).unwrap());
+            assert!((of(&hull) / of(&parent) - 1.0).abs() < 1e-10, "{quantity:?}");
+        }
+    }
+
+    #[test]
+    fn a_deck_below_the_waterline_is_refused() {
+        let parent = tug();
+        let refused = scaled(&parent, &Dimensions { depth: Some(3.0), ..Dimensions::default() }).unwrap_err();
+        assert!(refused.code == "E420" && refused.message.contains("3.6"), "{refused:?}");
+    }
+}

@@ -1,0 +1,303 @@
+//! The hull nearest to a start that has all targets: a convex quadratic program over the half-breadths on its chart.
+//!
+//! ```text
+//! minimise    J(c)                                     the bending of the change c
+//! subject to  g_k . c = -r_k                           the equations of the targets, linearised where they are not linear
+//!             0 <= y + c <= B/2, order of sections and waterlines, signs of curvature
+//! ```
+//!
+//! Rows of limits come into the program when an answer misses them. Equations that are not linear (KM, wetted surface, the
+//! place of the largest section) are linearised at the answer until they hold; a last correction of least size takes what
+//! the solver leaves, so that relative errors are those of rounding.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::bending::form;
+use super::pool::{AT_LIMIT, Candidate, Kind, candidates};
+use super::quantity::{Equation, Reference, equation};
+use super::request::Target;
+use crate::hull::{Hull, HullError};
+use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
+use crate::spline::BsplineSurface;
+
+/// Relative error at which an equation holds.
+const HELD: f64 = 2e-13;
+/// Largest relative error that is left to the last correction.
+const CORRECTED: f64 = 1e-7;
+/// Most linearisations.
+const TANGENTS: usize = 12;
+/// Most rounds in which missed rows come into the program.
+const ROUNDS: usize = 40;
+/// Most rows of a round for each row that is in the program.
+const LEAST_ADDED: usize = 120;
+/// Most corrections.
+const CORRECTIONS: usize = 4;
+
+/// Why there is no nearest hull.
+#[derive(Debug)]
+pub(super) enum Failed {
+    /// No half-breadths within the limits meet the targets.
+    Infeasible,
+    /// The steps came to no end: the largest relative error that was left.
+    Astray(f64),
+    /// The half-breadths make no hull.
+    Hull(HullError),
+    /// The program could not be stated: a fault of this one.
+    Program(ProblemError),
+}
+
+/// The nearest hull.
+#[derive(Debug, Clone)]
+pub(super) struct Nearest {
+    pub(super) hull: Hull,
+    /// dJ per unit of relative change of each target \[m^2\].
+    pub(super) prices: Vec<f64>,
+    /// J of the change \[m^2\].
+    pub(super) energy: f64,
+    /// Duality gap of the last program, relative.
+    pub(super) gap: f64,
+    /// Limits that bound the answer.
+    pub(super) binding: usize,
+    /// Programs that were solved.
+    pub(super) programs: usize,
+}
+
+/// The hull with these half-breadths on its chart.
+pub(super) fn with_breadths(hull: &Hull, y: &[f64]) -> Result<Hull, HullError> {
+    let surface = hull.surface();
+    let points = surface.points().iter().zip(y).map(|([x, _, z], y)| [*x, *y, *z]).collect();
+    let surface = BsplineSurface::new(surface.u().clone(), surface.v().clone(), points)?;
+    Hull::new(hull.name(), *hull.particulars(), surface, hull.deck().clone())
+}
+
+/// Half-breadths of the net.
+pub(super) fn breadths(hull: &Hull) -> Vec<f64> {
+    hull.surface().points().iter().map(|point| point[1]).collect()
+}
+
+/// What is free of the net: not keel, stem, stern and deck, not the centreplane, not the flat of side.
+pub(super) struct Freedom {
+    /// The number of each point among the free ones.
+    pub(super) places: Vec<Option<usize>>,
+    /// The free points.
+    pub(super) points: Vec<usize>,
+}
+
+impl Freedom {
+    pub(super) fn of(hull: &Hull) -> Self {
+        let surface = hull.surface();
+        let [rows, columns] = surface.shape();
+        let breadth = hull.particulars().breadth;
+        let slack = AT_LIMIT * breadth;
+        let is_free = |k: usize| {
+            let (i, j, y) = (k / columns, k % columns, surface.points()[k][1]);
+            let edge = i == 0 || j == 0 || i + 1 == rows || j + 1 == columns;
+            !edge && y > slack && (y - 0.5 * breadth).abs() > slack
+        };
+        let points: Vec<usize> = (0..rows * columns).filter(|k| is_free(*k)).collect();
+        let mut places = vec![None; rows * columns];
+        points.iter().enumerate().for_each(|(place, &point)| places[point] = Some(place));
+        Self { places, points }
+    }
+
+    /// A row over the free points.
+    pub(super) fn row(&self, row: impl IntoIterator<Item = (usize, f64)>) -> Vec<(usize, f64)> {
+        row.into_iter().filter_map(|(k, weight)| Some((self.places[k]?, weight))).filter(|e| e.1 != 0.0).collect()
+    }
+
+    /// A dense gradient over the free points.
+    pub(super) fn gradient(&self, gradient: &[f64]) -> Vec<f64> {
+        self.points.iter().map(|&k| gradient[k]).collect()
+    }
+}
+
+/// A program over the free points, to which rows are added.
+pub(super) struct Search<'a> {
+    pub(super) start: &'a Hull,
+    pub(super) reference: &'a Reference,
+    pub(super) targets: &'a [Target],
+    pub(super) freedom: Freedom,
+    pub(super) candidates: Vec<Candidate>,
+    /// Which candidates are in the program.
+    pub(super) taken: Vec<bool>,
+    pub(super) base: Vec<f64>,
+    /// Unit of the changes \[m\].
+    pub(super) unit: f64,
+    form: SparseRows,
+    pub(super) programs: usize,
+}
+
+/// An answer to a program.
+pub(super) struct Answer {
+    pub(super) y: Vec<f64>,
+    pub(super) multipliers: Vec<f64>,
+    objective: f64,
+    gap: f64,
+}
+
+impl<'a> Search<'a> {
+    /// With the limits of `parent` on the chart of `start`.
+    pub(super) fn new(parent: &Hull, start: &'a Hull, reference: &'a Reference, targets: &'a [Target]) -> Self {
+        let freedom = Freedom::of(start);
+        let bears = |candidate: &Candidate| candidate.row.iter().any(|(k, _)| freedom.places[*k].is_some());
+        let candidates: Vec<Candidate> = candidates(parent, start).into_iter().filter(bears).collect();
+        let form = form(start, &freedom.places);
+        Self {
+            start,
+            reference,
+            targets,
+            taken: vec![false; candidates.len()],
+            candidates,
+            freedom,
+            base: breadths(start),
+            unit: 0.5 * start.particulars().breadth,
+            form,
+            programs: 0,
+        }
+    }
+
+    pub(super) fn equations(&self, hull: &Hull) -> Vec<Equation> {
+        self.targets.iter().map(|target| equation(target.quantity, target.value, hull, self.reference)).collect()
+    }
+
+    /// The program: equations hold at `at` by their tangents there; `towards` replaces the bending by a linear objective.
+    fn problem(&self, equations: &[Equation], at: &[f64], towards: Option<&[f64]>) -> Problem {
+        let n = self.freedom.points.len();
+        let (mut rows, mut lower, mut upper) = (SparseRows::new(n), Vec::new(), Vec::new());
+        for equation in equations {
+            let gradient = self.freedom.gradient(&equation.gradient);
+            let moved: f64 = self.freedom.points.iter().zip(&gradient).map(|(&k, g)| g * (at[k] - self.base[k])).sum();
+            rows.push(gradient.iter().enumerate().map(|(k, g)| (k, g * self.unit)).filter(|e| e.1 != 0.0));
+            lower.push(moved - equation.residual);
+            upper.push(moved - equation.residual);
+        }
+        for candidate in self.candidates.iter().zip(&self.taken).filter(|(_, taken)| **taken).map(|(c, _)| c) {
+            let row = self.freedom.row(candidate.row.iter().copied());
+            let size = row.iter().map(|(_, w)| w.abs()).fold(0.0, f64::max).max(1e-300) * self.unit;
+            rows.push(row.iter().map(|(k, w)| (*k, w * self.unit / size)));
+            // A start that misses a row is held to what it has at most.
+            lower.push((candidate.lower - candidate.value(&self.base)) / size);
+            upper.push(f64::INFINITY);
+        }
+        let (quadratic, linear) = match towards {
+            None => (self.form.clone(), vec![0.0; n]),
+            Some(row) => (SparseRows::from_entries(n, n, &[]), row.to_vec()),
+        };
+        Problem { quadratic, linear, rows, lower, upper }
+    }
+
+    /// Solves, and takes missed rows in until none is.
+    pub(super) fn solve(
+        &mut self,
+        equations: &[Equation],
+        at: &[f64],
+        towards: Option<&[f64]>,
+    ) -> Result<Answer, Failed> {
+        let settings = Settings { tolerance: 1e-11, ..Settings::default() };
+        for _ in 0..ROUNDS {
+            let problem = self.problem(equations, at, towards);
+            let solution = problem.solve(&settings).map_err(Failed::Program)?;
+            self.programs += 1;
+            if matches!(solution.status, Status::Infeasible | Status::Unbounded) {
+                return Err(Failed::Infeasible);
+            }
+            let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
+            if solution.status == Status::Limit && certificate.max_violation > 1e-6 {
+                return Err(Failed::Infeasible);
+            }
+            let mut y = self.base.clone();
+            self.freedom.points.iter().zip(&solution.x).for_each(|(&k, c)| y[k] += self.unit * c);
+            if !self.take_missed(&y) {
+                let (multipliers, objective) = (solution.multipliers, certificate.primal);
+                return Ok(Answer { y, multipliers, objective, gap: certificate.gap.abs() });
+            }
+        }
+        Err(Failed::Infeasible)
+    }
+
+    /// Takes the most missed rows into the program; false where none is missed.
+    fn take_missed(&mut self, y: &[f64]) -> bool {
+        let miss = |candidate: &Candidate| (candidate.lower - candidate.value(y)) / candidate.slack;
+        let open = self.candidates.iter().enumerate().filter(|(k, c)| !self.taken[*k] && c.is_missed(y));
+        let mut missed: Vec<(f64, usize)> = open.map(|(k, candidate)| (miss(candidate), k)).collect();
+        missed.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        missed.truncate(LEAST_ADDED);
+        missed.iter().for_each(|(_, k)| self.taken[*k] = true);
+        !missed.is_empty()
+    }
+
+    /// Corrects what the equations are off by with the least change of points that stand off the centreplane.
+    fn correct(&self, mut y: Vec<f64>) -> Result<(Vec<f64>, f64), Failed> {
+        let off = |equations: &[Equation]| equations.iter().map(|e| e.residual.abs()).fold(0.0, f64::max);
+        let mut best = (y.clone(), f64::INFINITY);
+        for _ in 0..=CORRECTIONS {
+            let hull = with_breadths(self.start, &y).map_err(Failed::Hull)?;
+            let equations = self.equations(&hull);
+            if off(&equations) < best.1 {
+                best = (y.clone(), off(&equations));
+            }
+            if off(&equations) <= HELD {
+                break;
+            }
+            let loose: Vec<usize> = self.freedom.points.iter().copied().filter(|&k| y[k] > 1e-4 * self.unit).collect();
+            let rows = DMatrix::from_fn(equations.len(), loose.len(), |k, i| equations[k].gradient[loose[i]]);
+            let normal = &rows * rows.transpose();
+            let residuals = DVector::from_iterator(equations.len(), equations.iter().map(|e| -e.residual));
+            let Some(factor) = normal.cholesky() else { break };
+            let change = rows.transpose() * factor.solve(&residuals);
+            loose.iter().zip(change.iter()).for_each(|(&k, c)| y[k] += c);
+        }
+        Ok(best)
+    }
+
+    /// The nearest hull.
+    pub(super) fn run(&mut self) -> Result<Nearest, Failed> {
+        let mut hull = self.start.clone();
+        let mut at = self.base.clone();
+        let mut last = None;
+        let mut error = f64::INFINITY;
+        for _ in 0..TANGENTS {
+            let equations = self.equations(&hull);
+            error = equations.iter().map(|e| e.residual.abs()).fold(0.0, f64::max);
+            let keeps = self.candidates.iter().all(|candidate| !candidate.is_missed(&at));
+            if error <= CORRECTED && (last.is_some() || keeps) {
+                break;
+            }
+            let answer = self.solve(&equations, &at, None)?;
+            at.clone_from(&answer.y);
+            hull = with_breadths(self.start, &at).map_err(Failed::Hull)?;
+            last = Some(answer);
+        }
+        if error > CORRECTED {
+            let now = self.equations(&hull).iter().map(|e| e.residual.abs()).fold(0.0, f64::max);
+            if now > CORRECTED {
+                return Err(Failed::Astray(now));
+            }
+        }
+        let (y, left) = self.correct(at)?;
+        if left > 1e-10 {
+            return Err(Failed::Astray(left));
+        }
+        let count = self.targets.len();
+        let square = self.unit * self.unit;
+        let prices = last
+            .as_ref()
+            .map_or(vec![0.0; count], |answer| answer.multipliers[..count].iter().map(|z| z.abs() * square).collect());
+        let binding =
+            last.as_ref().map_or(0, |answer| answer.multipliers[count..].iter().filter(|z| z.abs() > 1e-7).count());
+        Ok(Nearest {
+            hull: with_breadths(self.start, &y).map_err(Failed::Hull)?,
+            prices,
+            energy: last.as_ref().map_or(0.0, |answer| answer.objective * square),
+            gap: last.as_ref().map_or(0.0, |answer| answer.gap),
+            binding,
+            programs: self.programs,
+        })
+    }
+
+    /// Leaves the signs of curvature out.
+    pub(super) fn without_signs(&mut self) {
+        self.candidates.retain(|candidate| candidate.kind != Kind::Sign);
+        self.taken = vec![false; self.candidates.len()];
+    }
+}

@@ -1,0 +1,270 @@
+//! The quantities that a daughter is derived for: their values, and their equations over the net of half-breadths.
+//!
+//! With both sides counted, V the volume below T, M and M_z its moments about AP and base line, A(x) the section areas, A_W
+//! and M_W the waterplane and its moment, I its transverse second moment and S the wetted surface, the equations are
+//!
+//! ```text
+//! V = V*,   M - LCB V = 0,   A(L/2) = C_M B T,   V - C_P L A(x_X) = 0,   A_W = C_WP L B,
+//! M_W - LCF A_W = 0,   M_z - KB V = 0,   M_z + I - KM V = 0,   S = S*
+//! ```
+//!
+//! All but the last two, and the place x_X of the largest section, are linear in the half-breadths on a fixed chart. Each is
+//! divided by its size, so that residuals are relative.
+
+use crate::hull::{Functional, Hull, SectionalAreaCurve, transverse_inertia, transverse_inertia_gradient};
+use crate::hydrostatics::{CoefficientLength, Conventions, PrismaticSection, wetted_surface, wetted_surface_gradient};
+
+/// Stations among which the largest section is looked for.
+const STATIONS: usize = 161;
+/// Halvings of the interval around it.
+const HALVINGS: usize = 60;
+
+/// A quantity that can be a target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Quantity {
+    /// Displacement volume \[m^3\].
+    Volume,
+    /// Longitudinal centre of buoyancy, forward of AP \[m\].
+    Lcb,
+    /// C_M \[-\], of the section at L_PP/2 on B and T.
+    MidshipCoefficient,
+    /// C_P \[-\], on the section of the conventions.
+    PrismaticCoefficient,
+    /// C_WP \[-\].
+    WaterplaneCoefficient,
+    /// Longitudinal centre of flotation, forward of AP \[m\].
+    Lcf,
+    /// Height of the centre of buoyancy above the base line \[m\].
+    Kb,
+    /// Height of the transverse metacentre above the base line \[m\].
+    Km,
+    /// Wetted surface \[m^2\].
+    WettedSurface,
+}
+
+impl Quantity {
+    /// Every quantity, in the order of tables.
+    pub const ALL: [Self; 9] = [
+        Self::Volume,
+        Self::Lcb,
+        Self::MidshipCoefficient,
+        Self::PrismaticCoefficient,
+        Self::WaterplaneCoefficient,
+        Self::Lcf,
+        Self::Kb,
+        Self::Km,
+        Self::WettedSurface,
+    ];
+
+    /// The key of its row in tables of hydrostatics.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Volume => "DISPVOL",
+            Self::Lcb => "XCB",
+            Self::MidshipCoefficient => "CM",
+            Self::PrismaticCoefficient => "CP",
+            Self::WaterplaneCoefficient => "CWP",
+            Self::Lcf => "XWL",
+            Self::Kb => "KB",
+            Self::Km => "KMT",
+            Self::WettedSurface => "S",
+        }
+    }
+
+    /// The word in flags and job files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Volume => "displacement",
+            Self::Lcb => "lcb",
+            Self::MidshipCoefficient => "cm",
+            Self::PrismaticCoefficient => "cp",
+            Self::WaterplaneCoefficient => "cwp",
+            Self::Lcf => "lcf",
+            Self::Kb => "kb",
+            Self::Km => "km",
+            Self::WettedSurface => "wetted-surface",
+        }
+    }
+
+    /// Unit, `-` for none.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Volume => "m3",
+            Self::Lcb | Self::Lcf | Self::Kb | Self::Km => "m",
+            Self::WettedSurface => "m2",
+            _ => "-",
+        }
+    }
+}
+
+/// What coefficients of a hull refer to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference {
+    /// Length of C_B, C_P and C_WP \[m\].
+    pub length: f64,
+    /// L_PP \[m\].
+    pub between: f64,
+    /// B \[m\].
+    pub breadth: f64,
+    /// T \[m\].
+    pub draught: f64,
+    /// Section of C_P.
+    pub section: PrismaticSection,
+}
+
+impl Reference {
+    /// Of a hull at its design draught; none where it states none, or where nothing floats.
+    #[must_use]
+    pub fn of(hull: &Hull, conventions: &Conventions) -> Option<Self> {
+        let p = hull.particulars();
+        let draught = p.draught?;
+        let [aft, fore] = hull.endings(draught)?;
+        let length = match conventions.coefficient_length {
+            CoefficientLength::BetweenPerpendiculars => p.length_between_perpendiculars,
+            CoefficientLength::Waterline => fore - aft,
+        };
+        let between = p.length_between_perpendiculars;
+        Some(Self { length, between, breadth: p.breadth, draught, section: conventions.prismatic_section })
+    }
+
+    /// L B T \[m^3\].
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.length * self.breadth * self.draught
+    }
+
+    /// Position of the section of C_P \[m\].
+    fn section_position(&self, hull: &Hull) -> f64 {
+        match self.section {
+            PrismaticSection::Midship => 0.5 * self.between,
+            PrismaticSection::Maximum => largest_section(hull, self.draught),
+        }
+    }
+}
+
+/// Position of the largest section \[m\], by sections at equal distances and golden sections of the interval around the
+/// largest of them.
+fn largest_section(hull: &Hull, draught: f64) -> f64 {
+    let Some([aft, fore]) = hull.endings(draught) else { return 0.0 };
+    let step = (fore - aft) / (STATIONS - 1) as f64;
+    let stations: Vec<f64> = (0..STATIONS).map(|k| aft + step * k as f64).collect();
+    let areas = SectionalAreaCurve::new(hull, draught, &stations).areas;
+    let best = areas.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(&a.0))).map_or(0, |(k, _)| k);
+    let area = |x: f64| Functional::SectionArea { x }.value(hull, draught);
+    let (mut low, mut high) = (stations[best.saturating_sub(1)], stations[(best + 1).min(STATIONS - 1)]);
+    let part = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut a, mut b) = (high - part * (high - low), low + part * (high - low));
+    let (mut at_a, mut at_b) = (area(a), area(b));
+    for _ in 0..HALVINGS {
+        if (high - low).abs() <= 1e-8 * (fore - aft) {
+            break;
+        }
+        if at_a >= at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - part * (high - low);
+            at_a = area(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + part * (high - low);
+            at_b = area(b);
+        }
+    }
+    let middle = 0.5 * (low + high);
+    if area(middle) >= areas[best] { middle } else { stations[best] }
+}
+
+/// The value of a quantity of a hull, in the unit of [`Quantity::unit`]; not finite where it is not defined.
+#[must_use]
+pub fn value_of(quantity: Quantity, hull: &Hull, reference: &Reference) -> f64 {
+    let t = reference.draught;
+    let of = |functional: Functional| functional.value(hull, t);
+    match quantity {
+        Quantity::Volume => of(Functional::Volume),
+        Quantity::Lcb => of(Functional::LongitudinalMoment) / of(Functional::Volume),
+        Quantity::MidshipCoefficient => {
+            of(Functional::SectionArea { x: 0.5 * reference.between }) / (reference.breadth * t)
+        }
+        Quantity::PrismaticCoefficient => {
+            let x = reference.section_position(hull);
+            of(Functional::Volume) / (of(Functional::SectionArea { x }) * reference.length)
+        }
+        Quantity::WaterplaneCoefficient => of(Functional::WaterplaneArea) / (reference.length * reference.breadth),
+        Quantity::Lcf => of(Functional::WaterplaneMoment) / of(Functional::WaterplaneArea),
+        Quantity::Kb => of(Functional::VerticalMoment) / of(Functional::Volume),
+        Quantity::Km => (of(Functional::VerticalMoment) + transverse_inertia(hull, t)) / of(Functional::Volume),
+        Quantity::WettedSurface => wetted_surface(hull, t),
+    }
+}
+
+/// An equation at a net: what it is off by, relative to its size, and the gradient of that over the net.
+#[derive(Debug, Clone)]
+pub(super) struct Equation {
+    pub(super) residual: f64,
+    pub(super) gradient: Vec<f64>,
+}
+
+/// sum of factors times rows, divided by `size`.
+fn combined(parts: &[(f64, Vec<f64>)], size: f64) -> Vec<f64> {
+    let mut sum = vec![0.0; parts.first().map_or(0, |(_, row)| row.len())];
+    for (factor, row) in parts {
+        sum.iter_mut().zip(row).for_each(|(sum, value)| *sum += factor / size * value);
+    }
+    sum
+}
+
+/// The equation that a quantity of a hull is `target`.
+pub(super) fn equation(quantity: Quantity, target: f64, hull: &Hull, reference: &Reference) -> Equation {
+    let t = reference.draught;
+    let row = |functional: Functional| functional.row(hull, t);
+    let of = |functional: Functional| functional.value(hull, t);
+    let linear = |parts: &[(f64, Functional)], known: f64, size: f64| {
+        let value: f64 = parts.iter().map(|(factor, functional)| factor * of(*functional)).sum();
+        let rows: Vec<(f64, Vec<f64>)> = parts.iter().map(|(factor, functional)| (*factor, row(*functional))).collect();
+        Equation { residual: (value - known) / size, gradient: combined(&rows, size) }
+    };
+    let volume = of(Functional::Volume);
+    match quantity {
+        Quantity::Volume => linear(&[(1.0, Functional::Volume)], target, target),
+        Quantity::Lcb => {
+            let parts = [(1.0, Functional::LongitudinalMoment), (-target, Functional::Volume)];
+            linear(&parts, 0.0, reference.between * volume)
+        }
+        Quantity::MidshipCoefficient => {
+            let area = target * reference.breadth * t;
+            linear(&[(1.0, Functional::SectionArea { x: 0.5 * reference.between })], area, area)
+        }
+        Quantity::PrismaticCoefficient => {
+            let x = reference.section_position(hull);
+            let parts = [(1.0, Functional::Volume), (-target * reference.length, Functional::SectionArea { x })];
+            linear(&parts, 0.0, volume)
+        }
+        Quantity::WaterplaneCoefficient => {
+            let area = target * reference.length * reference.breadth;
+            linear(&[(1.0, Functional::WaterplaneArea)], area, area)
+        }
+        Quantity::Lcf => {
+            let parts = [(1.0, Functional::WaterplaneMoment), (-target, Functional::WaterplaneArea)];
+            linear(&parts, 0.0, reference.between * of(Functional::WaterplaneArea))
+        }
+        Quantity::Kb => {
+            linear(&[(1.0, Functional::VerticalMoment), (-target, Functional::Volume)], 0.0, target * volume)
+        }
+        Quantity::Km => {
+            let size = target * volume;
+            let value = of(Functional::VerticalMoment) + transverse_inertia(hull, t) - target * volume;
+            let rows = [
+                (1.0, row(Functional::VerticalMoment)),
+                (1.0, transverse_inertia_gradient(hull, t)),
+                (-target, row(Functional::Volume)),
+            ];
+            Equation { residual: value / size, gradient: combined(&rows, size) }
+        }
+        Quantity::WettedSurface => Equation {
+            residual: wetted_surface(hull, t) / target - 1.0,
+            gradient: combined(&[(1.0, wetted_surface_gradient(hull, t))], target),
+        },
+    }
+}

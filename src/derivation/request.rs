@@ -1,0 +1,207 @@
+//! What is asked of a daughter, and which targets follow from it.
+
+use super::quantity::{Quantity, Reference, value_of};
+use super::refusal::Refusal;
+use crate::hull::Hull;
+
+/// Main dimensions of the daughter \[m\]; those of the parent where none is named.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Dimensions {
+    /// L_PP
+    pub length: Option<f64>,
+    /// B
+    pub breadth: Option<f64>,
+    /// T
+    pub draught: Option<f64>,
+    /// D
+    pub depth: Option<f64>,
+}
+
+/// How the targets are met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Dimensions alone.
+    Affine,
+    /// Sections are shifted so that entrance and run become shorter or longer by one factor each.
+    OneMinusPrismatic,
+    /// Sections are shifted by the quadratic of Lackenby (1950), which keeps ends and parallel body.
+    Lackenby,
+    /// The hull nearest to the scaled parent: a level shift, then a convex program.
+    #[default]
+    Nearest,
+}
+
+impl Method {
+    /// Every method.
+    pub const ALL: [Self; 4] = [Self::Affine, Self::OneMinusPrismatic, Self::Lackenby, Self::Nearest];
+
+    /// The word in flags and files.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Affine => "affine",
+            Self::OneMinusPrismatic => "one-minus-prismatic",
+            Self::Lackenby => "lackenby",
+            Self::Nearest => "nearest",
+        }
+    }
+}
+
+/// Whether a target was stated or is kept from the parent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// The user states it.
+    Given,
+    /// It is that of the scaled parent.
+    Kept,
+}
+
+impl Origin {
+    /// The word in files: `given` or `kept`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::Kept => "kept",
+        }
+    }
+}
+
+/// A value that a quantity of the daughter has, in the unit of [`Quantity::unit`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// The value.
+    pub value: f64,
+    /// Where it comes from.
+    pub origin: Origin,
+}
+
+/// What is asked of a daughter.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Request {
+    /// Main dimensions.
+    pub dimensions: Dimensions,
+    /// C_B \[-\], in place of a volume.
+    pub block_coefficient: Option<f64>,
+    /// LCB \[% of L_PP\], + forward of L_PP/2, in place of a position.
+    pub lcb_percent: Option<f64>,
+    /// The other targets.
+    pub targets: Vec<(Quantity, f64)>,
+    /// Quantities that are not kept although nobody names them.
+    pub free: Vec<Quantity>,
+    /// The method.
+    pub method: Method,
+    /// Ends of the parallel body of the daughter \[m\], of the method of Lackenby.
+    pub parallel_body: Option<[f64; 2]>,
+}
+
+impl Request {
+    /// The value that the request states for a quantity of a hull with this reference.
+    fn stated(&self, quantity: Quantity, reference: &Reference) -> Option<f64> {
+        let own = self.targets.iter().find(|(named, _)| *named == quantity).map(|(_, value)| *value);
+        let other = match quantity {
+            Quantity::Volume => self.block_coefficient.map(|block| block * reference.volume()),
+            Quantity::Lcb => self.lcb_percent.map(|part| reference.between * (0.5 + 0.01 * part)),
+            _ => None,
+        };
+        own.or(other)
+    }
+
+    /// The targets of the daughter: those that are stated, then volume, LCB and C_M of the scaled parent, as far as they are
+    /// neither free nor follow from others.
+    ///
+    /// # Errors
+    /// Every value that no ship has, and every target that the method does not take.
+    pub(super) fn targets(&self, scaled: &Hull, reference: &Reference) -> Result<Vec<Target>, Vec<Refusal>> {
+        let mut list = Vec::new();
+        for quantity in Quantity::ALL {
+            let stated =
+                self.stated(quantity, reference).map(|value| Target { quantity, value, origin: Origin::Given });
+            let kept = || Target { quantity, value: value_of(quantity, scaled, reference), origin: Origin::Kept };
+            list.extend(stated.or_else(|| self.keeps(quantity).then(kept)));
+        }
+        let mut refused: Vec<Refusal> = list.iter().filter_map(|target| impossible(target, reference)).collect();
+        refused.extend(self.of_method(&list));
+        if refused.is_empty() { Ok(list) } else { Err(refused) }
+    }
+
+    fn names(&self, quantity: Quantity) -> bool {
+        let other = match quantity {
+            Quantity::Volume => self.block_coefficient.is_some(),
+            Quantity::Lcb => self.lcb_percent.is_some(),
+            _ => false,
+        };
+        other || self.targets.iter().any(|(named, _)| *named == quantity)
+    }
+
+    /// Whether a quantity that nobody states is that of the scaled parent.
+    fn keeps(&self, quantity: Quantity) -> bool {
+        let prismatic = self.names(Quantity::PrismaticCoefficient);
+        let kept = match quantity {
+            // C_P and C_M say what C_B is.
+            Quantity::Volume => !prismatic || self.free.contains(&Quantity::MidshipCoefficient),
+            Quantity::Lcb => true,
+            Quantity::MidshipCoefficient => {
+                self.method == Method::Nearest && !(prismatic && self.names(Quantity::Volume))
+            }
+            _ => false,
+        };
+        kept && !self.free.contains(&quantity)
+    }
+
+    /// What the method does not take.
+    fn of_method(&self, list: &[Target]) -> Vec<Refusal> {
+        let takes = |quantity: Quantity| match self.method {
+            Method::Affine => false,
+            Method::OneMinusPrismatic | Method::Lackenby => {
+                matches!(quantity, Quantity::Volume | Quantity::Lcb | Quantity::PrismaticCoefficient)
+            }
+            Method::Nearest => true,
+        };
+        let given = list.iter().filter(|target| target.origin == Origin::Given && !takes(target.quantity));
+        let refusal = |target: &Target| {
+            let word = target.quantity.word();
+            let takes =
+                if self.method == Method::Affine { "dimensions" } else { "dimensions, displacement or cb, cp and lcb" };
+            let message = format!("method {} takes {takes} alone, and {word} is given", self.method.as_str());
+            Refusal::new("E422", vec![word], message, "Take --method nearest, or leave it out".to_owned())
+        };
+        let mut refused: Vec<Refusal> = given.map(refusal).collect();
+        let both = [Quantity::Volume, Quantity::PrismaticCoefficient].iter().all(|quantity| self.names(*quantity));
+        if both && matches!(self.method, Method::OneMinusPrismatic | Method::Lackenby) {
+            let message = "a shift of sections keeps C_M, so that cp follows from cb".to_owned();
+            refused.push(Refusal::new("E422", vec!["cp", "cb"], message, "Leave one of them out".to_owned()));
+        }
+        if self.parallel_body.is_some() && self.method != Method::Lackenby {
+            let message = format!("method {} takes no parallel body", self.method.as_str());
+            refused.push(Refusal::new("E422", vec!["parallel-body"], message, "Take --method lackenby".to_owned()));
+        }
+        refused
+    }
+}
+
+/// What no ship has.
+fn impossible(target: &Target, reference: &Reference) -> Option<Refusal> {
+    let (l, b, t) = (reference.length, reference.breadth, reference.draught);
+    let [low, high] = match target.quantity {
+        Quantity::Volume => [0.0, 1.0],
+        Quantity::MidshipCoefficient | Quantity::PrismaticCoefficient | Quantity::WaterplaneCoefficient => [0.0, 1.0],
+        Quantity::Lcb | Quantity::Lcf => [0.0, reference.between],
+        Quantity::Kb => [0.0, t],
+        Quantity::Km => [0.0, t + b * b / (12.0 * t) / 0.1],
+        Quantity::WettedSurface => [0.0, 2.0 * (l * b + l * t + b * t)],
+    };
+    let block = target.quantity == Quantity::Volume;
+    let value = if block { target.value / reference.volume() } else { target.value };
+    let strictly = value > low && if block { value < high } else { value <= high };
+    if strictly && value.is_finite() {
+        return None;
+    }
+    let (word, name) = if block { ("displacement", "C_B") } else { (target.quantity.word(), target.quantity.key()) };
+    let unit =
+        if target.quantity.unit() == "-" || block { String::new() } else { format!(" {}", target.quantity.unit()) };
+    let message = format!("{name} is {value:.4}{unit}; a ship has more than {low} and less than {high:.4}{unit}");
+    Some(Refusal::new("E421", vec![word], message, "Correct the value, or its unit".to_owned()))
+}

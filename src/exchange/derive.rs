@@ -1,0 +1,83 @@
+//! `derive.json`: how a daughter was derived.
+
+use serde_json::{Value, json};
+
+use super::number::json_number;
+use crate::hull::SurfaceDistance;
+
+/// A target of a daughter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DerivedTarget {
+    /// Key of its quantity: `DISPVOL`, `XCB`, `CM`, ...
+    pub key: &'static str,
+    /// Unit, `-` for none.
+    pub unit: &'static str,
+    /// `given` or `kept`.
+    pub origin: &'static str,
+    /// The value of the parent at the dimensions of the daughter.
+    pub scaled: f64,
+    /// The value that is wanted.
+    pub requested: f64,
+    /// The value of the daughter.
+    pub achieved: f64,
+    /// Shadow price: bending energy of the change per relative change of the target \[m^2\].
+    pub price: Option<f64>,
+    /// Least and greatest value with the others as they are.
+    pub interval: Option<[f64; 2]>,
+}
+
+/// What `derive.json` holds.
+#[derive(Debug, Clone, Copy)]
+pub struct DeriveReport<'a> {
+    /// Name of the parent.
+    pub parent: &'a str,
+    /// The word of the method.
+    pub method: &'static str,
+    /// The targets.
+    pub targets: &'a [DerivedTarget],
+    /// Amplitudes of the shift of the aft and the fore body, and the least and the greatest at which it folds.
+    pub shift: Option<[[f64; 2]; 3]>,
+    /// C_B that the shift alone reaches.
+    pub shift_reach: Option<[f64; 2]>,
+    /// Bending energy of the change \[m^2\], relative duality gap, limits that bound it, programs.
+    pub program: (f64, f64, usize, usize),
+    /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
+    pub inflections: [usize; 2],
+    /// How far the daughter is from the scaled parent.
+    pub moved: Option<SurfaceDistance>,
+    /// Warnings.
+    pub warnings: &'a [String],
+}
+
+/// `{"parent", "method", "targets", "shift", "program", "inflections", "moved", "warnings"}`.
+#[must_use]
+pub fn derive_json(report: &DeriveReport<'_>) -> Value {
+    let target = |t: &DerivedTarget| {
+        json!({
+            "key": t.key,
+            "unit": t.unit,
+            "origin": t.origin,
+            "scaled_parent": json_number(Some(t.scaled)),
+            "requested": json_number(Some(t.requested)),
+            "achieved": json_number(Some(t.achieved)),
+            "error": json_number(Some(t.achieved - t.requested)),
+            "shadow_price": json_number(t.price),
+            "interval": t.interval.map(|ends| ends.map(|end| json_number(Some(end)))),
+        })
+    };
+    let shift = report.shift.map(|[amplitudes, low, high]| {
+        json!({ "aft_fore": amplitudes, "folds_below": low, "folds_above": high, "CB_alone": report.shift_reach })
+    });
+    let (energy, gap, binding, programs) = report.program;
+    let moved = report.moved.map(|d| json!({ "largest": d.largest, "at": d.at, "rms": d.rms }));
+    json!({
+        "parent": report.parent,
+        "method": report.method,
+        "targets": report.targets.iter().map(target).collect::<Vec<_>>(),
+        "shift": shift,
+        "program": { "energy": json_number(Some(energy)), "gap": json_number(Some(gap)), "binding": binding, "solved": programs },
+        "inflections": { "scaled_parent": report.inflections[0], "daughter": report.inflections[1] },
+        "moved_from_scaled_parent": moved,
+        "warnings": report.warnings,
+    })
+}
