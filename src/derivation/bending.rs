@@ -7,13 +7,14 @@
 //! J = 1/2 int int (d^2 c/ds^2)^2 + 2 (d^2 c/ds dg)^2 + (d^2 c/dg^2)^2 ds dg
 //! ```
 //!
-//! by divided differences of the control values c. A spline may bend at a line of repeated knots for nothing; control values
-//! are charged for it, so that no change makes a knuckle.
+//! by divided differences of the control values c. A spline may bend at a line of repeated knots for nothing: a jump of the slope
+//! of the change there is charged besides, so that no change makes a knuckle.
 
 use std::collections::BTreeMap;
 
 use crate::hull::Hull;
 use crate::qp::SparseRows;
+use crate::spline::KnotVector;
 
 /// Points nearer than this part of a unit length count as so far apart: edges that shrink to a point.
 const NEAREST: f64 = 2e-3;
@@ -59,6 +60,44 @@ fn second([h, k]: [f64; 2]) -> [f64; 3] {
     [2.0 * root / (h * (h + k)), -2.0 * root / (h * k), 2.0 * root / (k * (h + k))]
 }
 
+/// Charge of a unit jump of slope at a line of as many knots as the degree, over a unit of that line.
+const KINK: f64 = 100.0;
+
+/// Control values on lines of the surface at which knots are repeated as often as the degree: slopes are free there.
+fn broken(knots: &KnotVector) -> Vec<usize> {
+    let inside = knots.breakpoints();
+    let inside = inside.iter().skip(1).take(inside.len().saturating_sub(2));
+    let lines = inside.filter(|t| knots.multiplicity(**t) >= knots.degree());
+    // The last knot before the span that begins at t is the last of them.
+    lines.map(|&t| knots.find_span(t) - knots.degree()).collect()
+}
+
+/// Jumps of the slope of the change across such lines, along and up.
+fn kinks(hull: &Hull, spacing: &Spacing) -> Vec<Stencil> {
+    let surface = hull.surface();
+    let [rows, columns] = surface.shape();
+    let stencil = |points: [usize; 3], [h, k]: [f64; 2], way: f64| -> Stencil {
+        let weights = [1.0 / h, -1.0 / h - 1.0 / k, 1.0 / k].map(|weight| KINK * way.sqrt() * weight);
+        points.into_iter().zip(weights).collect()
+    };
+    let mut list = Vec::new();
+    for j in broken(surface.v()).into_iter().filter(|j| *j > 0 && j + 1 < columns) {
+        for i in 0..rows {
+            let k = i * columns + j;
+            let ([along, up], below) = (spacing.at(i, j), spacing.at(i, j - 1)[1]);
+            list.push(stencil([k - 1, k, k + 1], [below, up], along));
+        }
+    }
+    for i in broken(surface.u()).into_iter().filter(|i| *i > 0 && i + 1 < rows) {
+        for j in 0..columns {
+            let k = i * columns + j;
+            let ([along, up], behind) = (spacing.at(i, j), spacing.at(i - 1, j)[0]);
+            list.push(stencil([k - columns, k, k + columns], [behind, along], up));
+        }
+    }
+    list
+}
+
 /// A difference with its points.
 type Stencil = Vec<(usize, f64)>;
 
@@ -66,7 +105,7 @@ fn stencils(hull: &Hull) -> Vec<Stencil> {
     let [rows, columns] = hull.surface().shape();
     let spacing = Spacing::new(hull);
     let index = |i: usize, j: usize| i * columns + j;
-    let mut list = Vec::new();
+    let mut list = kinks(hull, &spacing);
     for i in 0..rows {
         for j in 0..columns {
             let [along, up] = spacing.at(i, j);
@@ -115,6 +154,15 @@ pub(super) fn form(hull: &Hull, places: &[Option<usize>]) -> SparseRows {
 mod tests {
     use super::*;
     use crate::derivation::samples::parabolic;
+
+    /// A triple knot between others: the control value on its line.
+    #[test]
+    fn lines_of_repeated_knots_have_their_control_value() {
+        let knots = KnotVector::from_breakpoints(3, &[0.0, 1.0, 2.0, 3.0], &[1, 3]).unwrap();
+        let line = broken(&knots);
+        assert_eq!(line.len(), 1);
+        assert!((knots.greville()[line[0]] - 2.0).abs() < 1e-12, "{line:?} {:?}", knots.greville());
+    }
 
     /// Free of bending but for the mass: nothing is charged for a plane; the form is symmetric.
     #[test]
