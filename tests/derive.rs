@@ -224,13 +224,13 @@ fn the_nearest_value_of_a_refusal_is_feasible() {
     assert!(error(outputs.targets[0].achieved, outputs.targets[0].requested) <= 1e-10);
 }
 
-/// Far from the parent the targets are met, and that lines are no longer fair is a warning.
+/// Far from the parent the targets are met, and that lines are no longer fair is a warning and the exit code.
 #[test]
 fn more_inflections_are_a_warning() {
     let folder = folder("warned");
     let out = folder.join("out").display().to_string();
     let (code, _, err) = run(&[&config("tug.toml"), "--cb", "0.66", "--no-figures", "-q", "-o", &out]);
-    assert_eq!(code, 0, "{err}");
+    assert!(code == 5 && err.contains("E505 the targets are met"), "{err}");
     let written: Value = json(folder.read("out/derive.json"));
     let [before, after] = ["scaled_parent", "daughter"].map(|key| written["inflections"][key].as_u64().unwrap());
     assert!(after > before && err.starts_with("W420 ") && err.contains(&format!("has {after} inflections")), "{err}");

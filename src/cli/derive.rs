@@ -156,10 +156,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     outputs.warnings.iter().for_each(|warning| stream::message(warning));
     destination.write_run(&derive_files(&job, &outputs, !arguments.files.no_figures)?)?;
     if arguments.files.json {
-        stream::data(&stream::json(&derive_json(&outputs.report()))?)
-    } else if arguments.files.quiet {
-        Ok(())
-    } else {
-        stream::page(&derive_page(&outputs))
+        return stream::data(&stream::json_judged(derive_json(&outputs.report()), &outputs.verdict())?)
+            .and(outputs.verdict());
     }
+    if !arguments.files.quiet {
+        stream::page(&derive_page(&outputs))?;
+    }
+    outputs.verdict()
 }

@@ -10,6 +10,9 @@ use super::quantity::{Quantity, Reference, equation, value_of};
 use super::request::Target;
 use crate::hull::Hull;
 
+/// Most rounds in which missed signs come into a linear program; after them the interval is that without signs.
+const ROUNDS: usize = 10;
+
 /// What a quantity of the daughter can be while the others are as they are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
@@ -63,6 +66,7 @@ fn extreme(
     signs: bool,
 ) -> Option<f64> {
     let mut search = Search::new(parent, start, reference, others);
+    search.rounds = ROUNDS;
     if !signs {
         search.without_signs();
     }

@@ -125,6 +125,8 @@ pub(super) struct Search<'a> {
     pub(super) unit: f64,
     form: SparseRows,
     pub(super) programs: usize,
+    /// Most rounds in which missed rows come into a program.
+    pub(super) rounds: usize,
 }
 
 /// An answer to a program.
@@ -153,6 +155,7 @@ impl<'a> Search<'a> {
             unit: 0.5 * start.particulars().breadth,
             form,
             programs: 0,
+            rounds: ROUNDS,
         }
     }
 
@@ -194,7 +197,7 @@ impl<'a> Search<'a> {
         towards: Option<&[f64]>,
     ) -> Result<Answer, Failed> {
         let settings = Settings { tolerance: 1e-11, ..Settings::default() };
-        for _ in 0..ROUNDS {
+        for _ in 0..self.rounds {
             let problem = self.problem(equations, at, towards);
             let solution = problem.solve(&settings).map_err(Failed::Program)?;
             self.programs += 1;

@@ -234,6 +234,22 @@ pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutpu
     Ok(DeriveOutputs { outputs, method, comparison, targets, inflections, moved, warnings, notes, derived })
 }
 
+impl DeriveOutputs {
+    /// Whether the daughter is about as fair as her parent: at most one and a half times its inflections, and two.
+    ///
+    /// # Errors
+    /// [`Failure::Check`] (E505) otherwise; the files are those of the daughter all the same.
+    pub fn verdict(&self) -> Result<(), Failure> {
+        let [before, after] = self.inflections;
+        if 2 * after <= 3 * before + 4 {
+            return Ok(());
+        }
+        Err(Failure::Check(format!(
+            "E505 the targets are met, and the daughter is not fair: {before} > {after} inflections of stations and waterlines"
+        )))
+    }
+}
+
 fn warnings(job: &DeriveJob, [before, after]: [usize; 2]) -> Vec<String> {
     let warning = |code: &'static str, message: String, help: &str| {
         Diagnostic { severity: Severity::Warning, ..problem(code, &job.parent, message, help) }.to_string()

@@ -144,7 +144,7 @@ impl Failure {
 
 /// A message of the whole command; a code that opens it is its own.
 fn coded(code: &'static str, message: &str) -> Diagnostic {
-    let own = ["E203", "E501", "E502", "E503", "E504"].into_iter().find(|own| message.starts_with(own));
+    let own = ["E203", "E501", "E502", "E503", "E504", "E505"].into_iter().find(|own| message.starts_with(own));
     let text = own.and_then(|own| message.strip_prefix(own)).map_or(message, str::trim_start);
     problem(own.unwrap_or(code), Path::new(COMMAND_LINE), text.to_owned(), "")
 }

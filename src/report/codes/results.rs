@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const RESULTS: [Explanation; 20] = [
+pub(super) const RESULTS: [Explanation; 21] = [
     Explanation {
         code: "E401",
         title: "Infeasible targets",
@@ -86,6 +86,14 @@ pub(super) const RESULTS: [Explanation; 20] = [
         cause: "Of several formats of `export` some cannot be written for this hull. The files of the others are there.",
         example: "`E504 not written: gdf: the format needs a draught, and none is stated`.",
         remedy: "Give what the message asks for, and write these formats again.",
+    },
+    Explanation {
+        code: "E505",
+        title: "Daughter that is not fair",
+        cause: "The targets of `derive` are met, and the daughter has more than one and a half times the inflections of its \
+         parent, and two. The files are written.",
+        example: "`E505 the targets are met, and the daughter is not fair: 15 > 59 inflections`.",
+        remedy: "Give targets nearer to the parent, free one that is kept, or fair the table of the daughter.",
     },
     Explanation {
         code: "E510",
