@@ -113,6 +113,36 @@ fn volume_of(name: &str, text: &str, draught: f64) -> Result<f64, Failure> {
     Ok(body.curves_of_form(&[draught], &Conventions::default())?.0.rows.remove(0).displacement_volume)
 }
 
+/// Two boxes in one place, of which a tube between holes in their decks makes one skin.
+#[test]
+fn skins_that_no_hull_has_are_refused() {
+    let corner = |k: usize, by: f64| -> [f64; 3] {
+        let [x, y, z] = [0, 1, 2].map(|axis| (k >> axis & 1) as f64);
+        [60.0 * x, 10.0 * y - 5.0, 6.0 * z + by]
+    };
+    let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let mut triangles: Vec<[[f64; 3]; 3]> = Vec::new();
+    for by in [0.0, 0.01] {
+        for (k, [a, b, c, d]) in faces.into_iter().enumerate() {
+            if k < 5 {
+                triangles.push([a, b, c].map(|k| corner(k, by)));
+            }
+            triangles.push([a, c, d].map(|k| corner(k, by)));
+        }
+    }
+    for [p, q] in [[4, 5], [5, 7], [7, 4]] {
+        triangles.push([corner(p, 0.0), corner(q, 0.0), corner(q, 0.01)]);
+        triangles.push([corner(p, 0.0), corner(q, 0.01), corner(p, 0.01)]);
+    }
+    let mut text = String::from("solid twice\n");
+    for triangle in triangles {
+        let corners = triangle.map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).concat();
+        text.push_str(&format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n"));
+    }
+    let error = volume_of("one-skin.stl", &(text + "endsolid\n"), 3.0).unwrap_err().to_string();
+    assert!(error.contains("E353") && error.contains("displacement volume"), "{error}");
+}
+
 #[test]
 fn a_side_that_is_missing_is_refused_and_shells_are_united() {
     let hull = [[0.0, -5.0, 0.0], [60.0, 5.0, 6.0]];
@@ -136,7 +166,7 @@ fn a_side_that_is_missing_is_refused_and_shells_are_united() {
         ("tank.stl", vec![hull, [[10.0, -2.0, 0.0], [30.0, 2.0, 2.0]]], 3.0, 1800.0),
     ] {
         let found = volume_of(name, &boxes(&list, None), draught).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert!((found - expected).abs() < 3e-4 * expected, "{name}: {found} for {expected}");
+        assert!((found - expected).abs() < 1e-3 * expected, "{name}: {found} for {expected}");
     }
     // Off the centreplane, and a column, z is up.
     for (name, list) in

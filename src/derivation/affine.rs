@@ -19,6 +19,9 @@ use crate::spline::{BsplineCurve, BsplineSurface};
 /// Part of the way from T to D that the change of slope has at least.
 const LEAST_WAY: f64 = 0.15;
 
+/// Part of a span above T in which knots are added.
+const FINER: f64 = 0.5;
+
 /// The map of heights.
 #[derive(Debug, Clone, Copy)]
 struct Heights {
@@ -39,11 +42,28 @@ impl Heights {
     }
 }
 
-/// The greatest control height that bears on what is below T; T where that leaves too little of the side above.
-fn highest_wetted(hull: &Hull, draught: f64, depth: f64) -> f64 {
+/// The surface of a hull, and the greatest control height of it that bears on what is below T: with more knots just above T
+/// where that would leave too little of the side; T where heights are no function of v.
+fn with_dry_side(hull: &Hull, draught: f64, depth: f64) -> (BsplineSurface<3>, f64) {
     let surface = hull.surface();
-    let height = hull.height_parameter(draught).map(|v| surface.point(0, surface.v().find_span(v))[2]);
-    height.filter(|z| *z > draught && *z < draught + (1.0 - LEAST_WAY) * (depth - draught)).unwrap_or(draught)
+    let Some(v) = hull.height_parameter(draught) else { return (surface.clone(), draught) };
+    let height = |surface: &BsplineSurface<3>| surface.point(0, surface.v().find_span(v))[2];
+    let is_low = |z: f64| z > draught && z < draught + (1.0 - LEAST_WAY) * (depth - draught);
+    let found = height(surface);
+    if is_low(found) {
+        return (surface.clone(), found);
+    }
+    let degree = surface.v().degree();
+    let end = surface.v().breakpoints().into_iter().find(|knot| *knot > v).unwrap_or(surface.v().domain().1);
+    let more: Vec<f64> =
+        (1..=degree).map(|k| v + FINER * (end - v) * k as f64 / degree as f64).filter(|knot| *knot < end).collect();
+    match surface.insert_knots(&[], &more) {
+        Ok(finer) if is_low(height(&finer)) => {
+            let found = height(&finer);
+            (finer, found)
+        }
+        _ => (surface.clone(), draught),
+    }
 }
 
 /// The hull at other dimensions; what is not named is kept.
@@ -64,7 +84,7 @@ pub fn scaled(parent: &Hull, dimensions: &Dimensions) -> Result<Hull, Refusal> {
     let across = new.breadth / old.breadth;
     let scale = draught / old_draught;
     let uniform = (new.depth - scale * old.depth).abs() <= 1e-12 * new.depth;
-    let from = highest_wetted(parent, old_draught, old.depth);
+    let (surface, from) = with_dry_side(parent, old_draught, old.depth);
     let top_slope = if uniform {
         scale
     } else {
@@ -75,7 +95,6 @@ pub fn scaled(parent: &Hull, dimensions: &Dimensions) -> Result<Hull, Refusal> {
         return Err(Refusal::depth(new.depth, least.max(draught), draught));
     }
     let heights = Heights { scale, top_slope, from, depth: old.depth };
-    let surface = parent.surface();
     let points = surface.points().iter().map(|[x, y, z]| [along * x, across * y, heights.at(*z)]).collect();
     let deck = parent.deck().points().iter().map(|[x, z]| [along * x, heights.at(*z)]).collect();
     let deck = BsplineCurve::new(parent.deck().knots().clone(), deck).map_err(|error| Refusal::hull(&error))?;

@@ -252,6 +252,10 @@ const PANEL_VOLUME: f64 = 5e-3;
 /// What the volume of sections leaves that of the hull by, over it, before it is a warning.
 const SECTION_VOLUME: f64 = 3e-3;
 
+/// What the page says then.
+const SECTIONS_OFF: &str =
+    "W514 the volume between the sections is more than 0.3 % off that of the hull. Take a smaller --deviation";
+
 /// Corners of the body that the page names.
 const NAMED_CORNERS: usize = 4;
 
@@ -303,7 +307,7 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
 }
 
 /// What sections are on the page: how many, and the volume between them, with linear areas, against that of the hull.
-fn sections_line(table: &OffsetTable, volume: f64) -> String {
+fn sections_lines(table: &OffsetTable, volume: f64) -> Vec<String> {
     let area = |station: &StationOffsets| {
         let chords = station.outlines.iter().flat_map(|line| line.windows(2));
         [station.station.x, chords.map(|pair| (pair[1].z - pair[0].z) * (pair[0].y + pair[1].y)).sum()]
@@ -311,19 +315,18 @@ fn sections_line(table: &OffsetTable, volume: f64) -> String {
     let areas: Vec<[f64; 2]> = table.stations.iter().map(area).collect();
     let written: f64 = areas.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum();
     let off = written / volume - 1.0;
-    let warning = if off.abs() > SECTION_VOLUME {
-        "\nW514 the volume between the sections is more than 0.3 % off that of the hull. Take a smaller --deviation"
-    } else {
-        ""
-    };
-    format!(
+    let mut lines = vec![format!(
         "sections: {} with {} points, from x = {:.3} to {:.3} m, z from the base line; volume {written:.6e} m3, {off:+.2e} of the \
-         hull's{warning}",
+         hull's",
         table.stations.len(),
         table.point_count(),
         areas.first().map_or(0.0, |[x, _]| *x),
         areas.last().map_or(0.0, |[x, _]| *x)
-    )
+    )];
+    if off.abs() > SECTION_VOLUME {
+        lines.push(SECTIONS_OFF.to_owned());
+    }
+    lines
 }
 
 /// The panels and their line on the page.
@@ -506,7 +509,7 @@ pub fn export(
         let heights: Vec<f64> =
             [Some(hull.reference_height()), draught, Some((1.0 - 1e-9) * hull.top())].into_iter().flatten().collect();
         let table = OffsetTable::of_sections(hull, &section_stations(hull, &heights), deviation);
-        page.push(sections_line(&table, volume));
+        page.extend(sections_lines(&table, volume));
         table
     } else {
         OffsetTable::default()

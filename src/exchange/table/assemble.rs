@@ -295,7 +295,10 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     }
     let heads = reader.positions(&block.heads, what);
     let stations = reader.positions(&lines, "station");
-    let (heads, stations) = (heads?, stations?);
+    let (mut heads, stations) = (heads?, stations?);
+    if reader.settings.waterline_spacing.is_some() && names_waterlines(block.corner.trimmed()) {
+        heads.iter_mut().for_each(|head| head.named = true);
+    }
     if block.across == Axis::Waterline && are_numbered(block, &heads, reader.settings) {
         let message = format!(
             "waterlines are numbered, '{}' to '{}', and their spacing is not known: taken as 1 {} apart",

@@ -79,8 +79,8 @@ fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
             "length" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
                 group = group.or(Some(Group::Positions));
             }
-            "of" | "above" | "base" | "baseline" | "line" | "at" | "from" | "centreline" | "centerline" | "c.l."
-            | "cl" => {}
+            "of" | "full" | "whole" | "above" | "base" | "baseline" | "line" | "at" | "from" | "centreline"
+            | "centerline" | "c.l." | "cl" => {}
             _ => rest.push(word),
         }
     }

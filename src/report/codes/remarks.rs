@@ -182,7 +182,7 @@ pub(super) const REMARKS: [Explanation; 38] = [
         code: "W341",
         title: "Suspect offsets that change the volume",
         cause: "Offsets stand apart from their neighbours, and the volume with the expected ones differs by more than 1 %.",
-        example: "57.40 for 7.440: +17 %.",
+        example: "`57.40` for `7.440` makes a volume 17 % larger.",
         remedy: "Run `check`, and correct the offsets.",
     },
     Explanation {
