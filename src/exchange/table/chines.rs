@@ -34,7 +34,7 @@ pub(super) fn mark(table: &mut OffsetTable, problems: &mut Problems) {
     let has_few = |s: &&mut StationOffsets| s.outlines.len() == 1 && (3..=FEW).contains(&s.outlines[0].len());
     let few = table.stations.iter_mut().filter(has_few).count();
     if outlined >= LEAST && 2 * few > outlined {
-        for station in table.stations.iter_mut().filter(|s| has_few(&s)) {
+        for station in table.stations.iter_mut().filter(has_few) {
             let last = station.outlines[0].len() - 1;
             station.outlines[0][1..last].iter_mut().for_each(|point| point.marks.knuckle = true);
         }
@@ -105,13 +105,13 @@ fn run(table: &OffsetTable, found: &[Vec<usize>], from: [usize; 2]) -> Vec<[usiz
         table.stations[station].outlines[0].windows(2).map(|p| (p[1].y - p[0].y).hypot(p[1].z - p[0].z)).sum()
     };
     let mut run = vec![from];
-    for station in from[0] + 1..found.len() {
+    for (station, corners) in found.iter().enumerate().skip(from[0] + 1) {
         let here = at(run[run.len() - 1]);
         let apart = |&point: &usize| {
             let other = at([station, point]);
             (other.y - here.y).hypot(other.z - here.z)
         };
-        let nearest = found[station].iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let nearest = corners.iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         match nearest.filter(|point| apart(point) < NEAR * girth(station)) {
             Some(point) => run.push([station, point]),
             None => break,

@@ -351,8 +351,7 @@ impl System {
         } else {
             self.band.forward_blocks(nets);
         }
-        if count > 0 {
-            let columns = common.len() / count;
+        if let Some(columns) = common.len().checked_div(count) {
             let half: DMatrixView<'_, f64> = DMatrixView::from_slice(&self.halved, self.size, count);
             let mut nets = DMatrixViewMut::from_slice(nets, self.size, columns);
             let mut common = DMatrixViewMut::from_slice(common, count, columns);

@@ -184,7 +184,7 @@ pub(in super::super) fn framed(
         problems.error("E354", FilePosition::FILE, message, remedy);
     }
     let is_level = |edge: &[usize; 2]| edge.iter().all(|&k| meshes[0].vertices[k][2].abs() <= ON_CENTREPLANE * length);
-    if !open.is_empty() && !(at_surface && open.iter().all(is_level)) {
+    if !(open.is_empty() || at_surface && open.iter().all(is_level)) {
         let lowest = open.iter().flatten().map(|&k| meshes[0].vertices[k][2]).fold(f64::INFINITY, f64::min);
         let message = format!(
             "{} open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
