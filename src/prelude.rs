@@ -6,7 +6,7 @@
 //! | [`fit`] | a table of offsets | the surface through it |
 //! | [`fair`] | a table of offsets, or a job file | the fair hull, what moved, the certificate |
 //! | [`fair_curve`] | the points of a curve | the fair curve |
-//! | [`derive`] | a parent: any hull, table, design, mesh or CAD file | the daughter with other dimensions and coefficients |
+//! | [`derive()`] | a parent: any hull, table, design, mesh or CAD file | the daughter with other dimensions and coefficients |
 //! | [`compare`] | two of them | particulars, hydrostatics and distances beside each other |
 //! | [`hydrostatics`] | any hull, table, mesh or CAD file | hydrostatics at any draughts |
 //! | [`open`] | the same | the hull, for [`sections`] and [`export`] |

@@ -1,6 +1,6 @@
 //! From a parent to the hull that is wanted: other dimensions, coefficients and centres, all of them exact.
 //!
-//! [`scaled`] brings the parent to the dimensions. [`derive`] then meets the targets by a method ([`Method`]): sections that
+//! [`scaled`] brings the parent to the dimensions. [`derive()`] then meets the targets by a method ([`Method`]): sections that
 //! are shifted along the ship (one minus prismatic, Lackenby 1950), or the hull nearest to the scaled parent, found by a
 //! convex quadratic program over the half-breadths. Targets are met to rounding; what is infeasible is refused with the
 //! intervals that are within reach.
