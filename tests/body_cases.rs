@@ -113,7 +113,7 @@ fn volume_of(name: &str, text: &str, draught: f64) -> Result<f64, Failure> {
     Ok(body.curves_of_form(&[draught], &Conventions::default())?.0.rows.remove(0).displacement_volume)
 }
 
-/// Two boxes in one place, of which a tube between holes in their decks makes one skin.
+/// Two boxes in one place, of which a tube from the deck of one to the bottom of the other makes one skin.
 #[test]
 fn skins_that_no_hull_has_are_refused() {
     let corner = |k: usize, by: f64| -> [f64; 3] {
@@ -123,16 +123,19 @@ fn skins_that_no_hull_has_are_refused() {
     let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     let mut triangles: Vec<[[f64; 3]; 3]> = Vec::new();
     for by in [0.0, 0.01] {
-        for (k, [a, b, c, d]) in faces.into_iter().enumerate() {
-            if k < 5 {
-                triangles.push([a, b, c].map(|k| corner(k, by)));
+        for [a, b, c, d] in faces {
+            for triangle in [[a, b, c], [a, c, d]] {
+                let hole = if by > 0.0 { [0, 3, 1] } else { [4, 5, 7] };
+                if triangle != hole {
+                    triangles.push(triangle.map(|k| corner(k, by)));
+                }
             }
-            triangles.push([a, c, d].map(|k| corner(k, by)));
         }
     }
     for [p, q] in [[4, 5], [5, 7], [7, 4]] {
-        triangles.push([corner(p, 0.0), corner(q, 0.0), corner(q, 0.01)]);
-        triangles.push([corner(p, 0.0), corner(q, 0.01), corner(p, 0.01)]);
+        let (low, high) = ([corner(p - 4, 0.01), corner(q - 4, 0.01)], [corner(p, 0.0), corner(q, 0.0)]);
+        triangles.push([high[0], high[1], low[1]]);
+        triangles.push([high[0], low[1], low[0]]);
     }
     let mut text = String::from("solid twice\n");
     for triangle in triangles {

@@ -76,6 +76,19 @@ fn files_are_those_of_the_golden_folder() {
     assert_eq!(kept.count(), exported.files.len());
 }
 
+/// Sections run from end to end, closer where areas turn, with stations and chords within the page's bound.
+#[test]
+fn sections_have_the_volume_of_the_hull() {
+    for name in ["box", "bulk-carrier", "fishing-vessel", "frigate", "tug", "wigley", "yacht"] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let format = ExportFormat::ALL.into_iter().find(|format| format.name() == "ghs").unwrap();
+        let page = export(&hull, name, &[format], &ExportSettings::default()).unwrap().page;
+        let (_, off) = page.split_once(" m3, ").unwrap();
+        let off: f64 = off.split(' ').next().unwrap().parse().unwrap();
+        assert!(off.abs() < 3e-3, "{name}: {page}");
+    }
+}
+
 #[test]
 fn solids_have_the_volume_of_the_hull() {
     for name in ["box", "bulk-carrier", "fishing-vessel", "frigate", "seed002-frigate", "tug", "wigley", "yacht"] {

@@ -21,6 +21,9 @@ const BESIDE: f64 = 0.25;
 /// Fewer stations beside each other prove no chine.
 const LEAST: usize = 3;
 
+/// One of so many stations at least has a chine.
+const SHARE: usize = 6;
+
 /// Points of two stations are on one chine up to this distance, over the length of the section.
 const NEAR: f64 = 0.2;
 
@@ -47,11 +50,13 @@ pub(super) fn mark(table: &mut OffsetTable, problems: &mut Problems) {
     }
     let found: Vec<Vec<usize>> = table.stations.iter().map(corners).collect();
     let mut marked = vec![Vec::new(); found.len()];
+    // Three sections beside each other may turn alike at a bulb.
+    let least = LEAST.max(table.stations.len() / SHARE);
     let (mut first, mut last, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0);
     for start in 0..found.len() {
         for &corner in &found[start] {
             let run = run(table, &found, [start, corner]);
-            if run.len() < LEAST {
+            if run.len() < least {
                 continue;
             }
             for &[station, point] in &run {
