@@ -224,7 +224,10 @@ fn w311_stations_on_both_sides_of_the_origin() {
 fn w315_a_bottom_that_the_table_does_not_show() {
     let text = "x [m],0.5,1\n0,0,0\n1,2,1\n2,0,1\n";
     among(&notes(text, ""), &["W315", "the lowest waterline is 0.5 m above the base line", "up to 53.3 %"]);
-    for quiet in ["x [m],0,1\n0,0,0\n1,2,1\n2,0,1\n", "x [m],keel,0.5,1\n0,0,0,0\n1,0,2,1\n2,0,0,1\n"] {
+    // A keel without a flat of bottom leaves the sections down to it open.
+    among(&notes("x [m],keel,0.5,1\n0,0,0,0\n1,0,2,1\n2,0,0,1\n", ""), &["W315", "between the keel and the lowest"]);
+    let flat = "x [m],keel,flat of bottom,0.5,1\n0,0,0,0,0\n1,0,2,2,1\n2,0,0,0,1\n";
+    for quiet in ["x [m],0,1\n0,0,0\n1,2,1\n2,0,1\n", flat] {
         assert!(!notes(quiet, "").iter().any(|note| note.contains("W315")), "{:?}", notes(quiet, ""));
     }
 }

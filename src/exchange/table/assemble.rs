@@ -327,7 +327,7 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
 /// with a decimal sign or with a unit is a height.
 fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool {
     let corner = Corner::of(block.corner.trimmed());
-    let of_heights = corner.rows.is_none() || corner.columns.is_some();
+    let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
     if settings.waterline_spacing.or(settings.z_units.map(|_| 1.0)).is_some() || corner.unit.is_some() && of_heights {
         return false;
     }

@@ -79,7 +79,7 @@ pub(super) fn profiles(table: &OffsetTable, problems: &mut Problems) {
         let given = || table.endings.iter().enumerate().filter_map(move |(j, ends)| Some((j, ends[end]?)));
         // Low waterlines of a keel that rises to both ends are short, and anywhere.
         let beyond = || given().filter(|&(_, x)| table.stations.len() > 1 && aft_of(0.5 * (low + high), x));
-        if let Some((j, x)) = beyond().next_back().filter(|_| 2 * beyond().count() > given().count()) {
+        if let Some((j, x)) = beyond().next().filter(|_| 2 * beyond().count() > given().count()) {
             let message = format!(
                 "the profile of the {name} is at x {x} m on waterline {} m, beyond the middle of the stations, which is at {} m",
                 table.waterlines[j],
