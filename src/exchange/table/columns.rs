@@ -104,7 +104,7 @@ pub(super) fn column(name: &str) -> Option<Named> {
     Some(Named { column, unit, from_ap, fraction })
 }
 
-/// A column of breadths that are not said to be half ones.
+/// A column of breadths without a word for half or full.
 pub(super) fn breadths(name: &str) -> Option<Named> {
     let lower = name.to_lowercase();
     let word = ["breadth", "width", "beam"].into_iter().find(|word| lower.contains(word))?;
