@@ -24,7 +24,7 @@ const MOST_DRAUGHTS: f64 = 3.0;
 /// The columns of a header.
 struct Columns {
     all: Vec<Option<Named>>,
-    /// The column of breadths that are not said to be half ones.
+    /// The column of breadths without a word for half or full.
     unsaid: Option<usize>,
 }
 
