@@ -273,7 +273,7 @@ fn are_buttocks<'f>(heads: impl Iterator<Item = &'f Field>) -> bool {
     buttocks.len() > others.len()
 }
 
-/// Whether a header stands over sums and multipliers (Simpson's rule), which are no offsets.
+/// Whether a header names sums and multipliers (Simpson's rule), which are no offsets.
 fn is_reckoning(field: &Field) -> bool {
     const WORDS: [&str; 13] = [
         "sm",
