@@ -1,6 +1,7 @@
 //! What stands in a table of offsets besides numbers: cells with their marks, points of sections and lines.
 
 use super::particulars::PrincipalParticulars;
+use crate::numeric::trapezoids;
 
 /// What a cell says about the hull.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -76,6 +77,13 @@ pub struct OutlinePoint {
     pub z: f64,
     /// Its marks.
     pub marks: Marks,
+}
+
+/// Area between a line of points and the centreplane, int y dz [m^2], one side; pieces that fall take away.
+#[must_use]
+pub fn enclosed(points: &[OutlinePoint]) -> f64 {
+    let heights: Vec<[f64; 2]> = points.iter().map(|point| [point.z, point.y]).collect();
+    trapezoids(&heights)
 }
 
 /// What a line on the hull is.

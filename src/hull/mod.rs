@@ -30,7 +30,9 @@ mod vertices;
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
 pub use brep::{Brep, BrepEdge, BrepFace, BrepMesh, Conic, FaceFault, FaceSurface, Motion, Nearest, SpaceCurve, frame};
-pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written};
+pub use cell::{
+    Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written, enclosed,
+};
 pub(crate) use charted::advance;
 pub use diagonal::diagonal_offset;
 pub use distance::{SurfaceDistance, surface_distance};

@@ -15,7 +15,7 @@ pub use banded::{BandedLu, SingularMatrix};
 pub use cholesky::{BandedCholesky, SymmetricBand};
 pub use least_squares::BandedLeastSquares;
 pub use median::median;
-pub use quadrature::{GaussRule, gauss_legendre};
+pub use quadrature::{GaussRule, gauss_legendre, trapezoids};
 pub use root::{RootError, bracketed_root};
 pub use spherical::{scaled_spherical_i, spherical_j};
 pub use threads::join;

@@ -76,6 +76,12 @@ pub fn gauss_legendre(count: usize) -> &'static GaussRule {
     RULES[count - 1].get_or_init(|| GaussRule::new(count))
 }
 
+/// Integral of the lines between points (x, y), by trapezoids; the sign is that of the way of x.
+#[must_use]
+pub fn trapezoids(points: &[[f64; 2]]) -> f64 {
+    points.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

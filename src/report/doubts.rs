@@ -2,7 +2,8 @@
 
 use super::check::suspects_line;
 use crate::fairing::Suspects;
-use crate::hull::{Hull, OffsetTable, OutlinePoint, SectionalAreaCurve, StationOffsets};
+use crate::hull::{Hull, OffsetTable, OutlinePoint, SectionalAreaCurve, StationOffsets, enclosed};
+use crate::numeric::trapezoids;
 use std::f64::consts::PI;
 
 /// Part of the volume from which a doubt is a warning.
@@ -10,11 +11,6 @@ const SHARE: f64 = 0.01;
 
 /// Greatest turn between two chords that is of a curve \[rad\].
 const CURVED: f64 = 0.25 * PI;
-
-/// Sums of areas over stations.
-fn trapezoids(points: &[[f64; 2]]) -> f64 {
-    points.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum()
-}
 
 /// The suspects of a table in one line: a warning where they change the volume by more than one per cent.
 pub(super) fn suspects_doubt(table: &OffsetTable, found: &Suspects) -> Option<String> {
@@ -46,7 +42,6 @@ pub(super) fn suspects_doubt(table: &OffsetTable, found: &Suspects) -> Option<St
 /// l^2 t / 12.
 fn drawn(points: &[OutlinePoint]) -> [f64; 2] {
     let chords: Vec<[f64; 2]> = points.windows(2).map(|p| [p[1].y - p[0].y, p[1].z - p[0].z]).collect();
-    let area = points.windows(2).map(|p| 0.5 * (p[1].z - p[0].z) * (p[0].y + p[1].y)).sum();
     let turn = |k: usize| {
         let ([a, b], [c, d]) = (chords[k], chords[k + 1]);
         let turn = (a * d - b * c).atan2(a * c + b * d);
@@ -59,7 +54,7 @@ fn drawn(points: &[OutlinePoint]) -> [f64; 2] {
         known.iter().sum::<f64>() / known.len().max(1) as f64
     };
     let bulge = chords.iter().enumerate().map(|(k, [y, z])| (y * y + z * z) * around(k) / 12.0).sum();
-    [area, bulge]
+    [enclosed(points), bulge]
 }
 
 /// The volume inside the sections of a table as they are drawn against that of the hull between the same heights: a warning

@@ -12,9 +12,11 @@ use crate::exchange::{
 };
 use crate::hull::{
     Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, SharpCorner,
-    Solid, StationNumbers, StationOffsets, SubdivisionNet, TableForm, floats_at, section_stations, whole_volume,
+    Solid, StationNumbers, StationOffsets, SubdivisionNet, TableForm, enclosed, floats_at, section_stations,
+    whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
+use crate::numeric::trapezoids;
 use crate::units::{Notation, counted};
 
 /// What is exported.
@@ -309,11 +311,10 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
 /// What sections are on the page: how many, and the volume between them, with linear areas, against that of the hull.
 fn sections_lines(table: &OffsetTable, volume: f64) -> Vec<String> {
     let area = |station: &StationOffsets| {
-        let chords = station.outlines.iter().flat_map(|line| line.windows(2));
-        [station.station.x, chords.map(|pair| (pair[1].z - pair[0].z) * (pair[0].y + pair[1].y)).sum()]
+        [station.station.x, 2.0 * station.outlines.iter().map(|line| enclosed(line)).sum::<f64>()]
     };
     let areas: Vec<[f64; 2]> = table.stations.iter().map(area).collect();
-    let written: f64 = areas.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum();
+    let written = trapezoids(&areas);
     let off = written / volume - 1.0;
     let mut lines = vec![format!(
         "sections: {} with {} points, from x = {:.3} to {:.3} m, z from the base line; volume {written:.6e} m3, {off:+.2e} of the \

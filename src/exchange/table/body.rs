@@ -22,7 +22,8 @@ use super::problem::{FilePosition, Problems};
 use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
 use super::settings::Settings;
 use super::{ReadTable, TableProblem, sidecar};
-use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
+use crate::hull::{MeshLine, StatedParticulars, TriangleMesh, enclosed};
+use crate::numeric::trapezoids;
 use frame::{AS_WRITTEN, Given, framed};
 
 /// What points of sections that are left out are off by at most, over the breadth.
@@ -291,12 +292,9 @@ impl ReadBody {
     /// Compares the volume between the sections with that of the body, where this is closed.
     fn weigh(&self, sections: &[Section], problems: &mut Problems) {
         let Some(mesh) = self.meshes.last().filter(|mesh| mesh.open_edges().is_empty()) else { return };
-        let area = |section: &Section| {
-            let chords = section.branches.iter().flat_map(|line| line.windows(2));
-            [section.x, chords.map(|pair| (pair[1].z - pair[0].z) * (pair[0].y + pair[1].y)).sum()]
-        };
-        let areas: Vec<[f64; 2]> = sections.iter().map(area).collect();
-        let found: f64 = areas.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum();
+        let area =
+            |section: &Section| [section.x, 2.0 * section.branches.iter().map(|line| enclosed(line)).sum::<f64>()];
+        let found = trapezoids(&sections.iter().map(area).collect::<Vec<_>>());
         let volume = mesh.report().volume;
         let off = found / volume - 1.0;
         if off.abs() > SECTION_VOLUME {

@@ -3,6 +3,7 @@
 use super::assemble::SAME;
 use super::problem::{FilePosition, Problems};
 use crate::hull::{OffsetTable, StationOffsets};
+use crate::numeric::trapezoids;
 use crate::units::counted;
 
 /// Part of the volume that an unknown bottom may have before it is a warning.
@@ -64,10 +65,6 @@ pub(super) fn unknown(table: &OffsetTable, problems: &mut Problems) {
 
 fn has_keel(station: &StationOffsets) -> bool {
     station.keel_height.is_some() || station.flat_of_bottom.is_some()
-}
-
-fn trapezoids(points: &[[f64; 2]]) -> f64 {
-    points.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum()
 }
 
 /// Heights with half of the waterplanes there.

@@ -2,6 +2,7 @@
 
 use super::problem::{FilePosition, Problems};
 use crate::hull::{OffsetTable, StationOffsets};
+use crate::numeric::trapezoids;
 
 /// Part of the volume that an unknown end may have before it is a warning.
 const SHARE: f64 = 0.01;
@@ -16,7 +17,7 @@ const REMEDY: &str = "Give the stations to the ends, or the profiles of stern an
 pub(super) fn cut_off(table: &OffsetTable, problems: &mut Problems) {
     let stations: Vec<[f64; 2]> = table.stations.iter().map(|s| [s.station.x, area(table, s)]).collect();
     let (Some(&[aft, first]), Some(&[fore, last])) = (stations.first(), stations.last()) else { return };
-    let volume: f64 = stations.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum();
+    let volume = trapezoids(&stations);
     let greatest = stations.iter().map(|[_, area]| *area).fold(0.0, f64::max);
     let has = |end: usize| table.endings.iter().any(|ends| ends[end].is_some());
     let Some(length) = table.stated.length_between_perpendiculars else {
@@ -49,7 +50,5 @@ fn area(table: &OffsetTable, station: &StationOffsets) -> f64 {
     let cells = station.half_breadths.iter().zip(&table.waterlines).map(|(cell, z)| [*z, cell.value().unwrap_or(0.0)]);
     let cells: Vec<[f64; 2]> = cells.collect();
     let points: Vec<[f64; 2]> = station.outlines.iter().flatten().map(|p| [p.z, p.y]).collect();
-    let of =
-        |list: &[[f64; 2]]| -> f64 { list.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][1] + p[1][1])).sum() };
-    of(&cells).max(of(&points))
+    trapezoids(&cells).max(trapezoids(&points))
 }

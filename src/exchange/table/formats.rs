@@ -1,6 +1,6 @@
 //! The text formats of other programs, in the order in which they are tried.
 
-use super::grid::{LARGEST_TABLE, MOST_CELLS, MOST_ROWS};
+use super::grid::{LARGEST_TABLE, MOST_CELLS, MOST_ROWS, with_line_ends};
 use super::problem::{FilePosition, Problems};
 use super::settings::Settings;
 use super::{
@@ -40,8 +40,7 @@ pub(super) fn read(
     if bytes.len() > LARGEST_TABLE || super::xlsx::is_xlsx(bytes) {
         return None;
     }
-    let text = String::from_utf8_lossy(bytes);
-    let text = if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n").into() } else { text };
+    let text = with_line_ends(String::from_utf8_lossy(bytes));
     let read = recognised(name, &text, sidecar, settings)?;
     Some(read.and_then(|mut read| {
         let mut problems = Problems::new(name);

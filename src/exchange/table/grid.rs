@@ -3,6 +3,8 @@
 //! Tabs, semicolons, bars or commas part the fields, or blanks where none of these does. Fields follow RFC 4180: a field in quotes may hold separators, line ends and doubled quotes. A line whose first
 //! character is `#` is a comment; the last one before numbers alone, with as many fields as they have, is their header. Memory is bounded by [`LARGEST_TABLE`] bytes of text and [`MOST_CELLS`] fields.
 
+use std::borrow::Cow;
+
 use super::blanks;
 use super::header::plain_number;
 use super::problem::{Field, FilePosition, Problems};
@@ -57,8 +59,7 @@ pub(super) fn decode(bytes: &[u8], problems: &mut Problems) -> Option<String> {
             }
         }
     };
-    // Old Macs end lines with a carriage return alone.
-    let text = if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n") } else { text };
+    let text = with_line_ends(text.into()).into_owned();
     if text.chars().any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r')) {
         problems.error(
             "E300",
@@ -69,6 +70,11 @@ pub(super) fn decode(bytes: &[u8], problems: &mut Problems) -> Option<String> {
         return None;
     }
     Some(text)
+}
+
+/// A text whose lines end with line feeds: old Macs end them with a carriage return alone.
+pub(super) fn with_line_ends(text: Cow<'_, str>) -> Cow<'_, str> {
+    if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n").into() } else { text }
 }
 
 /// The character between fields: the tab, the semicolon or the bar when most lines have one outside quotes; else the

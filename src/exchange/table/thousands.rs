@@ -7,6 +7,7 @@
 use super::header::is_orderly;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::Settings;
+use super::triples::are_digits;
 use crate::units::{Notation, counted};
 
 /// Signs that are never decimal ones.
@@ -30,10 +31,6 @@ struct Grouped {
     text: String,
     /// Whether it can be nothing else: two signs, or a decimal sign of the other kind.
     proves: bool,
-}
-
-fn are_digits(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }
 
 fn grouped(text: &str, sign: char) -> Option<Grouped> {

@@ -79,7 +79,7 @@ fn fractions(rows: &mut [Vec<Field>], problems: &mut Problems) {
     }
 }
 
-fn are_digits(text: &str) -> bool {
+pub(super) fn are_digits(text: &str) -> bool {
     !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }
 

@@ -18,9 +18,6 @@ const MOVED: f64 = 1.5;
 const SHORT: f64 = 2.0;
 const LONG: f64 = 600.0;
 
-/// A vertical axis this many times as long as the others may be that of the length.
-const TALL: f64 = 1.0;
-
 /// Points nearer to the centreplane than this part of the size of the body are on it.
 const ON_CENTREPLANE: f64 = 1e-6;
 
@@ -342,7 +339,7 @@ fn found_axes(
     let names = ["x", "y", "z"];
     let written = with_up((usual, 1.0));
     let others = [(usual + 1) % 3, (usual + 2) % 3];
-    let is_tall = others.iter().all(|&k| extent(usual) > TALL * extent(k));
+    let is_tall = others.iter().all(|&k| extent(usual) > extent(k));
     let frame = match others.map(symmetric) {
         // A column is symmetric along both of the others.
         [true, true] => written,
