@@ -178,7 +178,7 @@ fn distances(from: From, length: Option<f64>, problems: &mut Problems) -> Statio
     StationDatum::Shifted { offset, sign }
 }
 
-/// Twenty or ten spaces where the numbers end there, or one before with the other end one after 0; others have to be said.
+/// Twenty or ten spaces where the numbers end there, or one before with the other end one after 0; others have to be stated.
 fn usual([low, high]: [f64; 2]) -> Option<f64> {
     let is = |a: f64, b: f64| (a - b).abs() < 1e-9;
     USUAL_SPACES.into_iter().find(|&n| high >= n - 1e-9 && high < n + 2.0 || is(high, n - 1.0) && is(low, 1.0))
