@@ -5,9 +5,10 @@ use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use super::catalogue::{catalogue_bytes, catalogue_ending};
 use super::doubts::{drawn_doubt, suspects_doubt};
 use super::failure::{COMMAND_LINE, Failure, problem};
-use super::verdict::is_warning;
+use super::verdict::{is_warning, without_folder};
 use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::fairing::suspects;
@@ -25,13 +26,15 @@ pub struct Source {
     pub conventions: Conventions,
     /// What was assumed where a table of offsets says nothing, in words for the user.
     pub notes: Vec<String>,
+    /// The file that was read.
+    pub file: PathBuf,
 }
 
 impl Source {
-    /// Those of the notes that are warnings.
+    /// Those of the notes that are warnings, for files: without the folder of the input.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        self.notes.iter().filter(|note| is_warning(note)).cloned().collect()
+        self.notes.iter().filter(|note| is_warning(note)).map(|note| without_folder(note, &self.file)).collect()
     }
 }
 
@@ -45,7 +48,8 @@ const LARGEST_BODY: u64 = 1 << 30;
 const CONTENT: usize = 1 << 16;
 
 /// Endings of meshes and CAD files.
-const BODIES: [&str; 6] = ["stl", "obj", "step", "stp", "igs", "iges"];
+const BODIES: [&str; 16] =
+    ["stl", "obj", "ply", "off", "glb", "gltf", "3mf", "vtk", "vtp", "vtu", "msh", "hst", "step", "stp", "igs", "iges"];
 
 /// Whether a path is standard input: `-`.
 fn is_standard_input(path: &Path) -> bool {
@@ -65,6 +69,9 @@ fn standard_input() -> Result<Vec<u8>, Failure> {
 
 /// The ending of the name of a file in lower case; of standard input that of a file with its content.
 pub(super) fn ending(path: &Path) -> String {
+    if let Some(ending) = catalogue_ending(path) {
+        return ending.to_owned();
+    }
     if !is_standard_input(path) {
         return path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     }
@@ -94,6 +101,9 @@ fn name_of_file(path: &Path) -> Result<(), Failure> {
 }
 
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    if let Some(bytes) = catalogue_bytes(path) {
+        return bytes;
+    }
     if is_standard_input(path) {
         return standard_input();
     }
@@ -224,7 +234,7 @@ pub fn read_source_with(path: &Path, overrides: &Overrides) -> Result<Source, Fa
         overrides.refuse(&file)?;
         let (design, _) = read_design(&file)?;
         let hull = build(&design)?.hull;
-        return Ok(Source { hull, conventions: design.conventions, notes: Vec::new() });
+        return Ok(Source { hull, conventions: design.conventions, notes: Vec::new(), file });
     }
     source_of(&file, read_bytes(&file)?, overrides)
 }
@@ -233,13 +243,16 @@ pub fn read_source_with(path: &Path, overrides: &Overrides) -> Result<Source, Fa
 pub(super) fn source_of(file: &Path, bytes: Vec<u8>, overrides: &Overrides) -> Result<Source, Failure> {
     let extension = ending(file);
     let first = bytes.iter().find(|b| !b.is_ascii_whitespace());
-    if extension != "json" && first.is_some_and(|&b| b != b'{') {
+    let is_json = extension == "json" || first.is_none_or(|&b| b == b'{');
+    if !is_json || extension == "gltf" {
         return fitted(file, &bytes, overrides);
     }
     overrides.refuse(file)?;
     let text = utf8(file, bytes)?;
     match exchange::read_hull(&text) {
-        Ok(HullFile { hull, conventions }) => Ok(Source { hull, conventions, notes: Vec::new() }),
+        Ok(HullFile { hull, conventions }) => {
+            Ok(Source { hull, conventions, notes: Vec::new(), file: file.to_owned() })
+        }
         Err(HullFileError::Json { line, column, field, message }) => {
             let found = diagnostic("E140", file, Some(line), Some(column), format!("{field}{message}"));
             Err(Failure::Input(vec![Diagnostic { help: AGAIN.to_owned(), ..found }]))
@@ -283,6 +296,12 @@ impl Overrides {
         ];
         let keys = dimensions.into_iter().filter_map(|(key, value)| Some((key, format!("{} m", value?)))).collect();
         Self { keys, file: is_toml(path).then(|| path.to_owned()) }
+    }
+
+    /// These and others.
+    pub(super) fn and(mut self, others: &Self) -> Self {
+        self.keys.extend(others.keys.iter().cloned());
+        self
     }
 
     /// The conventions as a file: its name in messages, and its text.
@@ -338,6 +357,35 @@ pub(super) fn sidecar(path: &Path, overrides: &Overrides) -> Result<Vec<(String,
     Ok(list)
 }
 
+/// The conventions of a file for a copy of it: the text of the TOML file of the same name beside it, with others over it.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] where it is no text.
+pub fn conventions_beside(path: &Path, overrides: &Overrides) -> Result<Option<String>, Failure> {
+    Ok(merged(sidecar(path, &Overrides::default())?.into_iter().next().map(|(_, text)| text), overrides))
+}
+
+/// The conventions of a file with others over them.
+pub(super) fn merged(sidecar: Option<String>, overrides: &Overrides) -> Option<String> {
+    let Some((_, stated)) = overrides.text() else { return sidecar };
+    let Some(sidecar) = sidecar else { return Some(stated) };
+    let (mut all, over) = (sidecar.parse::<toml::Table>().ok()?, stated.parse::<toml::Table>().ok()?);
+    for (name, keys) in over {
+        let toml::Value::Table(keys) = keys else { continue };
+        // The dimensions may stand in two tables, in capital or small letters.
+        for (_, table) in &mut all {
+            if let toml::Value::Table(table) = table {
+                table.retain(|old, _| !keys.keys().any(|key| key.eq_ignore_ascii_case(old)));
+            }
+        }
+        let table = all.entry(name).or_insert_with(|| toml::Value::Table(toml::Table::new()));
+        if let toml::Value::Table(table) = table {
+            table.extend(keys);
+        }
+    }
+    toml::to_string(&all).ok()
+}
+
 /// The table of offsets of a file, with what should be known about it. Conventions are taken from the TOML file of the
 /// same name beside it, when there is one.
 ///
@@ -356,7 +404,7 @@ pub fn read_table_file_with(path: &Path, overrides: &Overrides) -> Result<(Offse
 }
 
 /// The same, with main dimensions over those that the table states, which the job or method file `by` says, or the
-/// command line: numbered stations and ratios stand where these put them.
+/// command line, and with conventions over those of the file beside it: numbered stations and ratios stand where these put them.
 ///
 /// # Errors
 /// Those of [`read_table_file`].
@@ -364,8 +412,9 @@ pub(super) fn read_table_stated(
     path: &Path,
     over: &StatedParticulars,
     by: &Path,
+    conventions: &Overrides,
 ) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
-    let (mut table, notes) = read_table_file_with(path, &Overrides::dimensions(over, by))?;
+    let (mut table, notes) = read_table_file_with(path, &Overrides::dimensions(over, by).and(conventions))?;
     table.stated = over.over(&table.stated);
     Ok((table, notes))
 }
@@ -422,7 +471,7 @@ fn fitted(path: &Path, bytes: &[u8], overrides: &Overrides) -> Result<Source, Fa
     let notes = notes.chain(doubts.into_iter().flatten()).chain(fitted.notes).collect();
     let given = Given::of_table(fitted.hull.particulars().draught.map(|_| overrides.states_draught()));
     let conventions = Conventions { assumed: Assumed::of(&table.stated), given, ..Conventions::default() };
-    Ok(Source { hull: fitted.hull, conventions, notes })
+    Ok(Source { hull: fitted.hull, conventions, notes, file: path.to_owned() })
 }
 
 /// The most cells of one table of offsets.

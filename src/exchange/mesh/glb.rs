@@ -25,6 +25,7 @@ fn colour(region: Region) -> [f64; 3] {
         Region::Transom => [0.35, 0.55, 0.7],
         Region::Bow => [0.2, 0.4, 0.6],
         Region::Deck => [0.85, 0.8, 0.7],
+        Region::Centreplane => [0.6, 0.6, 0.6],
     }
 }
 

@@ -1,12 +1,15 @@
-//! Reading of binary glTF 2.0 (Khronos, ISO/IEC 12113), in its own axes (y up).
+//! Reading of glTF 2.0 (Khronos, ISO/IEC 12113), binary or as text with its bytes in base 64, in its own axes (y up).
 //!
 //! Read are the triangles (modes 4, 5 and 6) of the meshes that the nodes of the scene show, each moved by its node and the
 //! nodes above it. A node has a matrix, column by column, or M = T R S of a translation, a unit quaternion (x, y, z, w) and
 //! a scale. Positions are 32-bit reals or quantised integers (KHR_mesh_quantization). Without nodes all meshes are read as
 //! they stand. What else moves vertices, or packs them, is refused by its name.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use nalgebra::{Matrix4, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use serde_json::Value;
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 use super::super::fault::{Faults, RecordFault};
@@ -63,7 +66,7 @@ fn size_of(value: &Value, key: &str) -> Option<usize> {
 /// The items of an accessor of `parts` numbers of the kinds that are `allowed`.
 fn items<'a>(
     scene: &Value,
-    binary: &'a [u8],
+    buffers: &'a Buffers<'_>,
     accessor: &Value,
     parts: usize,
     allowed: impl Iterator<Item = (u64, usize)>,
@@ -79,12 +82,11 @@ fn items<'a>(
         return Err(message);
     }
     let found = || {
-        let is_own = size_of(view, "buffer")? == 0 && list(scene, "buffers").first()?.get("uri").is_none();
         let kind = accessor.get("componentType")?.as_u64()?;
         let width = parts * { allowed }.find(|(other, _)| *other == kind)?.1;
         let (count, stride) = (size_of(accessor, "count")?, size_of(view, "byteStride")?.max(width));
         let from = size_of(view, "byteOffset")?.checked_add(size_of(accessor, "byteOffset")?)?;
-        let bytes = binary.get(from..).filter(|_| is_own)?;
+        let bytes = buffers.get(size_of(view, "buffer")?)?.get(from..)?;
         let needed = count.checked_sub(1).map_or(Some(0), |k| k.checked_mul(stride)?.checked_add(width))?;
         let normalized = accessor.get("normalized").and_then(Value::as_bool).unwrap_or(false);
         (needed <= bytes.len()).then_some(Items { bytes, stride, count, kind, normalized })
@@ -123,7 +125,7 @@ impl Items<'_> {
 }
 
 /// The triangles of a primitive.
-fn primitive(scene: &Value, binary: &[u8], value: &Value) -> Result<Vec<[Point3<f64>; 3]>, String> {
+fn primitive(scene: &Value, buffers: &Buffers<'_>, value: &Value) -> Result<Vec<[Point3<f64>; 3]>, String> {
     let mode = value.get("mode").map_or(Some(4), Value::as_u64);
     if !matches!(mode, Some(4..=6)) {
         return Ok(Vec::new());
@@ -134,11 +136,11 @@ fn primitive(scene: &Value, binary: &[u8], value: &Value) -> Result<Vec<[Point3<
     let missing = || "it has no positions".to_owned();
     let positions = value.get("attributes").and_then(|all| all.get("POSITION")).ok_or_else(missing)?;
     let allowed = INTEGERS[..4].iter().copied().chain([(REAL, 4)]);
-    let points = items(scene, binary, positions, 3, allowed)?;
+    let points = items(scene, buffers, positions, 3, allowed)?;
     let order: Vec<usize> = match value.get("indices") {
         Some(number) => {
             let unsigned = INTEGERS.into_iter().filter(|(kind, _)| ![5120, 5122].contains(kind));
-            let list = items(scene, binary, number, 1, unsigned)?;
+            let list = items(scene, buffers, number, 1, unsigned)?;
             (0..list.count).map(|k| list.index(k)).collect()
         }
         None => (0..points.count).collect(),
@@ -220,6 +222,55 @@ fn shown(scene: &Value, faults: &mut Faults) -> Vec<(usize, Matrix4<f64>)> {
     found
 }
 
+/// The bytes of each buffer.
+type Buffers<'a> = Vec<Cow<'a, [u8]>>;
+
+/// The buffers of a scene: the first without an address is `binary`; others stand in the text, in base 64.
+fn buffers<'a>(scene: &Value, binary: &'a [u8], faults: &mut Faults) -> Buffers<'a> {
+    let mut all = Vec::new();
+    for (k, buffer) in list(scene, "buffers").iter().enumerate() {
+        let bytes = match buffer.get("uri").and_then(Value::as_str) {
+            None => Some(Cow::Borrowed(if k == 0 { binary } else { &[] })),
+            Some(uri) => {
+                let text = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,"));
+                text.and_then(|(_, text)| STANDARD.decode(text).ok()).map(Cow::Owned)
+            }
+        };
+        if bytes.is_none() {
+            let message =
+                "its bytes are not in the file; write one file (GLB, or glTF with its bytes in it)".to_owned();
+            faults.add(None, &format!("buffer {k}"), message);
+        }
+        all.push(bytes.unwrap_or_default());
+    }
+    all
+}
+
+/// Whether these are the bytes of a scene of glTF as text.
+#[must_use]
+pub(in super::super) fn is_gltf(bytes: &[u8]) -> bool {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
+    start.trim_start().starts_with('{') && start.contains("\"asset\"")
+}
+
+/// Reads a scene of glTF as text, in its own axes (y up).
+///
+/// # Errors
+/// Every fault of the file, up to a number of them.
+pub(in super::super) fn read_gltf(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+    let mut faults = Faults::default();
+    match serde_json::from_slice(bytes) {
+        Ok(scene) => {
+            let buffers = buffers(&scene, &[], &mut faults);
+            triangles(&scene, &buffers, faults)
+        }
+        Err(error) => {
+            faults.add(Some(error.line()), "", format!("expected a scene of glTF 2.0 in JSON: {error}"));
+            Err(faults.list)
+        }
+    }
+}
+
 /// Reads a GLB file, in its own axes (y up).
 ///
 /// # Errors
@@ -233,10 +284,16 @@ pub(in super::super) fn read_glb(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
         return Err(faults.list);
     };
     let binary = bytes.get(28 + text.len()..).unwrap_or_default();
+    let buffers = buffers(&scene, binary, &mut faults);
+    triangles(&scene, &buffers, faults)
+}
+
+/// The triangles of a scene.
+fn triangles(scene: &Value, buffers: &Buffers<'_>, mut faults: Faults) -> Result<TriangleMesh, Vec<RecordFault>> {
     let mut corners: Vec<[[f64; 3]; 3]> = Vec::new();
     let mut seen = HashSet::new();
-    let meshes = list(&scene, "meshes");
-    for (m, matrix) in shown(&scene, &mut faults) {
+    let meshes = list(scene, "meshes");
+    for (m, matrix) in shown(scene, &mut faults) {
         let Some(mesh) = meshes.get(m) else {
             faults.add(None, &format!("mesh {m}"), format!("there are {} meshes", meshes.len()));
             continue;
@@ -250,7 +307,7 @@ pub(in super::super) fn read_glb(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
             if !seen.insert(format!("{parts:?} {matrix:?}")) {
                 continue;
             }
-            match primitive(&scene, binary, value) {
+            match primitive(scene, buffers, value) {
                 Ok(found) => {
                     let place = |corner: Point3<f64>| matrix.transform_point(&corner).into();
                     corners.extend(found.into_iter().map(|corners| corners.map(place)));

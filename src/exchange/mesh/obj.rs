@@ -1,4 +1,4 @@
-//! Wavefront OBJ: vertices once, a group for each region. Read are vertices and faces (numbers from 1, or back from the
+//! Wavefront OBJ: vertices once, a group and a material for each region. Read are vertices and faces (numbers from 1, or back from the
 //! last one when negative; `a/b/c` means the vertex a); faces of more corners become fans of triangles, everything else
 //! is passed over.
 
@@ -6,9 +6,9 @@ use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use super::super::fault::{Faults, RecordFault};
-use super::{MOST_TRIANGLES, regions};
+use super::polygons::Polygons;
+use super::regions;
 use crate::hull::{HullMesh, TriangleMesh};
-use crate::units::counted;
 
 /// Whether this is the beginning of an OBJ file: lines of vertices before anything that has no place in one.
 #[must_use]
@@ -19,15 +19,14 @@ pub(in super::super) fn is_obj(bytes: &[u8]) -> bool {
     vertices > 2 && 2 * vertices > others
 }
 
-/// Reads an OBJ file, in its own units and axes.
+/// Reads an OBJ file, in its own units and axes: its groups and objects with their names.
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.
-pub(in super::super) fn read_obj(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+pub(in super::super) fn read_obj(bytes: &[u8]) -> Result<Vec<(String, TriangleMesh)>, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
-    let mut vertices: Vec<[f64; 3]> = Vec::new();
-    let mut corners: Vec<[[f64; 3]; 3]> = Vec::new();
+    let mut mesh = Polygons::default();
     // A line that ends with a backslash goes on in the next.
     let mut joined: Vec<(usize, Cow<'_, str>)> = Vec::new();
     let mut goes_on = false;
@@ -48,56 +47,54 @@ pub(in super::super) fn read_obj(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
                 let point: Vec<&str> = words.collect();
                 // A vertex may carry a weight or a colour.
                 if let Some(point) = faults.point(k + 1, line, &point[..point.len().min(3)], 3) {
-                    vertices.push(point);
+                    mesh.vertices.push(point);
                 }
             }
+            Some("g" | "o") => {
+                let name: Vec<&str> = words.collect();
+                mesh.begin(&name.join(" "));
+            }
             Some("f") => {
-                let mut face: Vec<[f64; 3]> = Vec::new();
+                let mut face = Vec::new();
                 let before = faults.list.len();
                 for word in words {
                     let number = word.split('/').next().unwrap_or_default().parse::<i64>();
                     let place = number.ok().and_then(|n| match n {
                         1.. => usize::try_from(n - 1).ok(),
                         0 => None,
-                        _ => vertices.len().checked_sub(usize::try_from(n.unsigned_abs()).ok()?),
+                        _ => mesh.vertices.len().checked_sub(usize::try_from(n.unsigned_abs()).ok()?),
                     });
-                    match place.and_then(|place| vertices.get(place)) {
-                        Some(point) => face.push(*point),
+                    match place.filter(|place| *place < mesh.vertices.len()) {
+                        Some(place) => face.push(place),
                         None => {
-                            faults.add(Some(k + 1), word, format!("no vertex; there are {} so far", vertices.len()))
+                            let message = format!("no vertex; there are {} so far", mesh.vertices.len());
+                            faults.add(Some(k + 1), word, message);
                         }
                     }
                 }
-                if face.len() < 3 && faults.list.len() == before {
-                    faults.add(Some(k + 1), line, format!("a face of {}", counted(face.len(), "corner")));
+                if faults.list.len() == before && !mesh.face(Some(k + 1), &face, &mut faults) {
+                    break;
                 }
-                corners.extend((2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
             }
             _ => {}
         }
-        if corners.len() > MOST_TRIANGLES {
-            faults.add(Some(k + 1), "", format!("more than {MOST_TRIANGLES} triangles"));
-        }
-        if faults.is_full() || corners.len() > MOST_TRIANGLES {
+        if faults.is_full() {
             break;
         }
     }
-    if corners.is_empty() && faults.list.is_empty() {
-        faults.add(None, "", "no faces".to_owned());
-    }
-    faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
+    mesh.finish_parts(faults)
 }
 
-/// Text of an OBJ file \[m\]; x forward, y to port, z up.
+/// Text of an OBJ file, in the unit of the mesh; x forward, y to port, z up.
 #[must_use]
 pub fn write_obj(mesh: &HullMesh, name: &str) -> String {
     let one_line = name.replace(['\n', '\r'], " ");
-    let mut text = format!("# {one_line}: x forward, y to port, z up, metres\no hull\n");
+    let mut text = format!("# {one_line}: x forward, y to port, z up\no hull\n");
     for [x, y, z] in &mesh.vertices {
         let _ = writeln!(text, "v {x} {y} {z}");
     }
     for (region, list) in regions(mesh) {
-        let _ = writeln!(text, "g {}", region.name());
+        let _ = writeln!(text, "g {0}\nusemtl {0}", region.name());
         for [a, b, c] in list {
             let _ = writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1);
         }

@@ -2,8 +2,9 @@
 //! as words whatever the lines; a panel of four different corners becomes two triangles from its first. What the
 //! plane of symmetry x = 0 mirrors is added. Where y = 0 is one, the half that is given is read: whoever reads bodies mirrors it.
 
-use super::super::fault::{Faults, LARGEST, RecordFault};
+use super::super::fault::{Faults, RecordFault};
 use super::MOST_TRIANGLES;
+use super::numbers::{DOUBLE, Numbers};
 use crate::hull::TriangleMesh;
 
 /// The acceleration of gravity in feet [ft/s^2].
@@ -11,74 +12,6 @@ const FEET: std::ops::RangeInclusive<f64> = 31.5..=32.8;
 
 /// A body that reaches further to both sides, over its breadth, is none of which one side is given.
 const BOTH_SIDES: f64 = 1e-2;
-
-/// The words of a text with their lines; what follows `!` or `#` in a line is a comment.
-struct Words<'a> {
-    list: std::vec::IntoIter<(usize, &'a str)>,
-    last: usize,
-    faults: Faults,
-}
-
-impl<'a> Words<'a> {
-    fn of(text: &'a str, skip: usize) -> Self {
-        let list: Vec<(usize, &str)> = text
-            .lines()
-            .enumerate()
-            .skip(skip)
-            .flat_map(|(k, line)| {
-                let said = line.split(['!', '#']).next().unwrap_or_default();
-                said.split_whitespace().map(move |word| (k + 1, word))
-            })
-            .collect();
-        let last = list.last().map_or(0, |(line, _)| *line);
-        Self { list: list.into_iter(), last, faults: Faults::default() }
-    }
-
-    /// The next number; none, with a fault, when there is none.
-    fn number(&mut self, what: &str) -> Option<f64> {
-        let Some((line, word)) = self.list.next() else {
-            self.faults.add(Some(self.last), "", format!("the file ends, expected {what}"));
-            return None;
-        };
-        // FORTRAN writes 1.0D+01.
-        match word.replace(['D', 'd'], "e").parse::<f64>() {
-            Ok(value) if value.abs() <= LARGEST => Some(value),
-            _ => {
-                self.faults.add(Some(line), word, format!("expected {what}, a number of at most 1e8"));
-                None
-            }
-        }
-    }
-
-    /// The next whole number that is not negative.
-    fn count(&mut self, what: &str) -> Option<usize> {
-        let value = self.number(what)?;
-        if value >= 0.0 && value.fract() == 0.0 {
-            return Some(value as usize);
-        }
-        self.faults.add(Some(self.last), &value.to_string(), format!("expected {what}, a whole number"));
-        None
-    }
-
-    fn point(&mut self, what: &str) -> Option<[f64; 3]> {
-        Some([self.number(what)?, self.number(what)?, self.number(what)?])
-    }
-
-    /// The rest of the line of the word read last does not count: words up to the next line are left out.
-    fn next_line(&mut self, line: usize) {
-        while self.list.as_slice().first().is_some_and(|(other, _)| *other == line) {
-            self.list.next();
-        }
-    }
-
-    fn is_at_end(&self) -> bool {
-        self.list.as_slice().is_empty()
-    }
-
-    fn line(&self) -> usize {
-        self.list.as_slice().first().map_or(self.last, |(line, _)| *line)
-    }
-}
 
 /// The triangles of a panel with corners in turn, from the first of these, as its volume is reckoned on the page of
 /// `export`.
@@ -102,7 +35,7 @@ pub(in super::super) struct PanelBody {
 }
 
 /// The body of corners and the planes of symmetry, x = 0 and y = 0.
-fn body(
+pub(super) fn body(
     mut faults: Faults,
     corners: Vec<[[f64; 3]; 3]>,
     [along, across]: [bool; 2],
@@ -120,7 +53,7 @@ fn body(
     faults.or(|| PanelBody { mesh, is_half: across, unit: 1.0 })
 }
 
-fn too_many(count: usize, faults: &mut Faults) -> bool {
+pub(super) fn too_many(count: usize, faults: &mut Faults) -> bool {
     let over = count > MOST_TRIANGLES / 2;
     if over {
         faults.add(None, "", format!("{count} panels or nodes; at most {} are read", MOST_TRIANGLES / 2));
@@ -133,11 +66,12 @@ fn too_many(count: usize, faults: &mut Faults) -> bool {
 /// # Errors
 /// Every fault of the file, up to a number of them.
 pub(in super::super) fn read_gdf(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFault>> {
-    let text = String::from_utf8_lossy(bytes);
-    let mut words = Words::of(&text, 1);
+    let mut words = Numbers::of(bytes);
+    // The title.
+    words.rest_of_line();
     let mut corners = Vec::new();
     let (mut planes, mut unit) = ([false; 2], 1.0);
-    let mut header = |words: &mut Words<'_>| -> Option<usize> {
+    let mut header = |words: &mut Numbers<'_>| -> Option<usize> {
         for what in [["ULEN", "GRAV"], ["ISX", "ISY"]] {
             let line = words.line();
             let numbers = [words.number(what[0])?, words.number(what[1])?];
@@ -158,7 +92,7 @@ pub(in super::super) fn read_gdf(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFa
             let mut panel = [[0.0; 3]; 4];
             let what = format!("a corner of panel {} of {count}", k + 1);
             for corner in &mut panel {
-                let Some(point) = words.point(&what) else { return body(words.faults, Vec::new(), planes) };
+                let Some(point) = words.point(DOUBLE, &what) else { return body(words.faults, Vec::new(), planes) };
                 *corner = point;
             }
             corners.extend(triangles(panel));
@@ -186,17 +120,22 @@ pub(in super::super) fn is_gdf(bytes: &[u8]) -> bool {
         && third.first().is_some_and(|count| *count >= 1.0 && count.fract() <= 0.0)
 }
 
-/// A panel by the numbers of its nodes, from 1; none, with a fault, when there is no such node.
-fn by_number(numbers: [usize; 4], nodes: &[[f64; 3]], line: usize, faults: &mut Faults) -> Option<[[f64; 3]; 4]> {
+/// The triangles of a panel by the numbers of its nodes, from 1; none, with a fault, when there is no such node.
+pub(super) fn quadrilateral(
+    numbers: [usize; 4],
+    nodes: &[[f64; 3]],
+    line: Option<usize>,
+    faults: &mut Faults,
+) -> Option<[[[f64; 3]; 3]; 2]> {
     let mut panel = [[0.0; 3]; 4];
     for (corner, number) in panel.iter_mut().zip(numbers) {
         let Some(node) = number.checked_sub(1).and_then(|k| nodes.get(k)) else {
-            faults.add(Some(line), &number.to_string(), format!("no node; there are {}", nodes.len()));
+            faults.add(line, &number.to_string(), format!("no node; there are {}", nodes.len()));
             return None;
         };
         *corner = *node;
     }
-    Some(panel)
+    Some(triangles(panel))
 }
 
 /// Whether this is the beginning of a mesh of NEMOH, whose files have several endings: 2 and 0 or 1 on the first line, node 1
@@ -218,8 +157,7 @@ pub(in super::super) fn is_nemoh(bytes: &[u8]) -> bool {
 /// # Errors
 /// Every fault of the file, up to a number of them.
 pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFault>> {
-    let text = String::from_utf8_lossy(bytes);
-    let mut words = Words::of(&text, 0);
+    let mut words = Numbers::of(bytes);
     let (mut nodes, mut corners) = (Vec::new(), Vec::new());
     let first = words.line();
     let (dimension, plane) = (words.number("2"), words.number("0 or 1 for the plane of symmetry"));
@@ -237,7 +175,7 @@ pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<PanelBody, Vec<Record
             words.next_line(line);
             break;
         }
-        let Some(point) = words.point("a coordinate") else { return body(words.faults, corners, planes) };
+        let Some(point) = words.point(DOUBLE, "a coordinate") else { return body(words.faults, corners, planes) };
         nodes.push(point);
         if too_many(nodes.len(), &mut words.faults) {
             return body(words.faults, corners, planes);
@@ -256,10 +194,10 @@ pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<PanelBody, Vec<Record
             };
             *number = found;
         }
-        let Some(panel) = by_number(numbers, &nodes, line, &mut words.faults) else {
+        let Some(panel) = quadrilateral(numbers, &nodes, Some(line), &mut words.faults) else {
             return body(words.faults, corners, planes);
         };
-        corners.extend(triangles(panel));
+        corners.extend(panel);
         if too_many(corners.len() / 2, &mut words.faults) {
             return body(words.faults, corners, planes);
         }
@@ -276,7 +214,7 @@ pub(in super::super) fn read_pnl(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFa
     // Headings are lines of dashes.
     let said: String =
         text.lines().map(|line| if line.contains("--") { "\n".to_owned() } else { format!("{line}\n") }).collect();
-    let mut words = Words::of(&said, 0);
+    let mut words = Numbers::of(said.as_bytes());
     let mut corners = Vec::new();
     let header = [(); 4].map(|()| words.count("the numbers of panels and nodes and the symmetries"));
     let planes = [header[2], header[3]].map(|plane| plane == Some(1));
@@ -287,7 +225,7 @@ pub(in super::super) fn read_pnl(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFa
     let mut nodes = Vec::new();
     for k in 0..count {
         let what = format!("node {} of {count}", k + 1);
-        let (Some(_), Some(point)) = (words.count(&what), words.point(&what)) else {
+        let (Some(_), Some(point)) = (words.count(&what), words.point(DOUBLE, &what)) else {
             return body(words.faults, corners, planes);
         };
         nodes.push(point);
@@ -309,10 +247,10 @@ pub(in super::super) fn read_pnl(bytes: &[u8]) -> Result<PanelBody, Vec<RecordFa
         if sides == 3 {
             numbers[3] = numbers[2];
         }
-        let Some(panel) = by_number(numbers, &nodes, line, &mut words.faults) else {
+        let Some(panel) = quadrilateral(numbers, &nodes, Some(line), &mut words.faults) else {
             return body(words.faults, corners, planes);
         };
-        corners.extend(triangles(panel));
+        corners.extend(panel);
     }
     body(words.faults, corners, planes)
 }

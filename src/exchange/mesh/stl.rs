@@ -6,6 +6,7 @@
 use std::fmt::Write as _;
 
 use super::super::fault::{Faults, RecordFault};
+use super::polygons::Polygons;
 use super::{MOST_TRIANGLES, normal, regions};
 use crate::hull::{HullMesh, TriangleMesh};
 use crate::units::counted;
@@ -40,13 +41,13 @@ pub(in super::super) fn is_stl(bytes: &[u8]) -> bool {
     is_solid(&start) && start.contains("facet")
 }
 
-/// Reads an STL file, in its own units and axes.
+/// Reads an STL file, in its own units and axes: its solids with their names.
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.
-pub(in super::super) fn read_stl(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+pub(in super::super) fn read_stl(bytes: &[u8]) -> Result<Vec<(String, TriangleMesh)>, Vec<RecordFault>> {
     match binary_count(bytes) {
-        Some(count) => read_binary(bytes, count),
+        Some(count) => read_binary(bytes, count).map(|mesh| vec![("body".to_owned(), mesh)]),
         None => read_ascii(bytes),
     }
 }
@@ -73,7 +74,7 @@ fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<RecordFau
     faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
 }
 
-fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+fn read_ascii(bytes: &[u8]) -> Result<Vec<(String, TriangleMesh)>, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
     // Bytes of a binary file after a header that begins with `solid`.
@@ -84,7 +85,7 @@ fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
         faults.add(None, "", format!("{} bytes; a binary file of {count} triangles has {wanted}", bytes.len()));
         return Err(faults.list);
     }
-    let (mut corners, mut triangle) = (Vec::new(), Vec::new());
+    let (mut mesh, mut triangle) = (Polygons::default(), Vec::new());
     for (k, line) in text.lines().enumerate() {
         let mut words = line.split_whitespace();
         match words.next().map(str::to_ascii_lowercase).as_deref() {
@@ -96,14 +97,22 @@ fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
             }
             Some("outer") => triangle.clear(),
             Some("endloop") => match triangle[..] {
-                [a, b, c] => corners.push([a, b, c]),
+                [a, b, c] => {
+                    if !mesh.push([a, b, c], k + 1, &mut faults) {
+                        break;
+                    }
+                }
                 _ => faults.add(
                     Some(k + 1),
                     line,
                     format!("a loop of {}, expected 3", counted(triangle.len(), "corner")),
                 ),
             },
-            None | Some("solid" | "facet" | "endfacet" | "endsolid") => {}
+            Some("solid") => {
+                let name: Vec<&str> = words.collect();
+                mesh.begin(&name.join(" "));
+            }
+            None | Some("facet" | "endfacet" | "endsolid") => {}
             Some(_) => {
                 faults.add(
                     Some(k + 1),
@@ -112,24 +121,18 @@ fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
                 );
             }
         }
-        if corners.len() > MOST_TRIANGLES {
-            faults.add(Some(k + 1), "", format!("more than {MOST_TRIANGLES} triangles"));
-        }
-        if faults.is_full() || corners.len() > MOST_TRIANGLES {
+        if faults.is_full() {
             break;
         }
     }
-    if corners.is_empty() && faults.list.is_empty() {
-        faults.add(None, "", "no triangles".to_owned());
-    }
-    faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
+    mesh.finish_parts(faults)
 }
 
 /// Binary STL: 80 bytes of header, the number of triangles, and for each its normal, its corners as 32-bit reals \[m\]
 /// and two bytes that say nothing.
 #[must_use]
 pub fn write_stl(mesh: &HullMesh, name: &str) -> Vec<u8> {
-    let mut header: Vec<u8> = format!("{name}, metres").into_bytes();
+    let mut header: Vec<u8> = name.as_bytes().to_vec();
     // A header that begins with "solid" is taken for ASCII.
     if header.starts_with(b"solid") {
         header.insert(0, b' ');

@@ -8,13 +8,18 @@
 
 mod cad;
 pub(super) mod frame;
+mod parts;
 
 use std::f64::consts::PI;
 
 use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
 use super::super::fault::RecordFault;
+#[cfg(feature = "packages")]
+use super::super::mesh::{PackagedMesh, is_threemf, is_vtk_xml, read_threemf, read_vtk_xml};
 use super::super::mesh::{
-    PanelBody, is_gdf, is_glb, is_nemoh, is_obj, is_stl, read_gdf, read_glb, read_nemoh, read_obj, read_pnl, read_stl,
+    PanelBody, is_gdf, is_glb, is_gltf, is_hydrostar, is_msh, is_nemoh, is_obj, is_off, is_ply, is_stl, is_vtk,
+    read_gdf, read_glb, read_gltf, read_hydrostar, read_msh, read_nemoh, read_obj, read_off, read_ply, read_pnl,
+    read_stl, read_vtk,
 };
 use super::super::subdivision::{SubdivisionProject, is_fbm, is_ftm, read_fbm, read_ftm};
 use super::outline::{Deck, point, take_off_deck};
@@ -25,6 +30,7 @@ use super::{ReadTable, TableProblem, sidecar};
 use crate::hull::{MeshLine, StatedParticulars, TriangleMesh, enclosed};
 use crate::numeric::trapezoids;
 use frame::{AS_WRITTEN, Given, framed};
+use parts::NamedMesh;
 
 /// What points of sections that are left out are off by at most, over the breadth.
 const THINNED: f64 = 2e-5;
@@ -66,6 +72,8 @@ const SECTION_VOLUME: f64 = 1e-2;
 enum Shape {
     /// With what their format says.
     Triangles(TriangleMesh, Given),
+    /// In parts with names.
+    Named(Vec<NamedMesh>, Given),
     Surfaces(CadSurfaces),
     Net(SubdivisionProject),
     /// What cannot be read.
@@ -78,46 +86,87 @@ impl Shape {
     }
 }
 
-/// The kinds of files, with what reads them.
 type BodyReader = fn(&[u8]) -> Result<Shape, Vec<RecordFault>>;
 
-fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, BodyReader)> {
-    let name = name.to_ascii_lowercase();
-    let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
-    if is_fbm(bytes) || ends(&[".fbm"]) {
-        Some(("FREE!ship", |bytes| read_fbm(bytes).map(Shape::Net)))
-    } else if is_ftm(bytes) || ends(&[".ftm"]) {
-        Some(("FREE!ship", |bytes| read_ftm(bytes).map(Shape::Net)))
-    } else if is_step(bytes) || ends(&[".step", ".stp"]) {
-        Some(("STEP", |bytes| read_step(bytes).map(Shape::Surfaces)))
-    } else if is_iges(bytes) || ends(&[".iges", ".igs"]) {
-        Some(("IGES", |bytes| read_iges(bytes).map(Shape::Surfaces)))
-    } else if ends(&[".stl"]) || is_stl(bytes) {
-        Some(("STL", |bytes| read_stl(bytes).map(|mesh| Shape::Triangles(mesh, Given::plain(1.0)))))
-    } else if is_glb(bytes) || ends(&[".glb"]) {
-        Some(("GLB", |bytes| read_glb(bytes).map(|mesh| Shape::Triangles(mesh, Given { up: 1, ..Given::plain(1.0) }))))
-    } else if ends(&[".gdf"]) || is_gdf(bytes) {
-        Some(("GDF", |bytes| read_gdf(bytes).map(Shape::of_panels)))
-    } else if ends(&[".pnl"]) {
-        Some(("PNL", |bytes| read_pnl(bytes).map(Shape::of_panels)))
-    } else if ends(&[".mar"]) || is_nemoh(bytes) {
-        Some(("NEMOH", |bytes| read_nemoh(bytes).map(Shape::of_panels)))
-    } else if ends(&[".obj"]) || is_obj(bytes) {
-        Some(("OBJ", |bytes| read_obj(bytes).map(|mesh| Shape::Triangles(mesh, Given::plain(1.0)))))
-    } else {
-        None
+/// A kind of file with a body.
+struct BodyFormat {
+    name: &'static str,
+    /// Endings of the names of its files.
+    endings: &'static [&'static str],
+    /// Whether a file is of the kind by its content.
+    recognise: fn(&[u8]) -> bool,
+    read: BodyReader,
+}
+
+impl BodyFormat {
+    const fn new(
+        name: &'static str,
+        endings: &'static [&'static str],
+        recognise: fn(&[u8]) -> bool,
+        read: BodyReader,
+    ) -> Self {
+        Self { name, endings, recognise, read }
     }
 }
 
-/// Reads a body: triangles (STL, OBJ, GLB), panels (GDF, PNL, NEMOH), the surfaces of a CAD file (STEP, IGES) or a
-/// control net (FREE!ship), by its content or its name, with the conventions of the TOML beside it, given by its name
-/// and its text, and of others, each over those before it; none when it is no such file.
+/// A mesh in metres, of which its format says nothing.
+fn plain(mesh: TriangleMesh) -> Shape {
+    Shape::Triangles(mesh, Given::plain(1.0))
+}
+
+/// A mesh in metres whose y is up.
+fn upright(mesh: TriangleMesh) -> Shape {
+    Shape::Triangles(mesh, Given { up: 1, ..Given::plain(1.0) })
+}
+
+/// What reads the kinds of files, in the order in which they are tried.
+const FORMATS: &[BodyFormat] = &[
+    BodyFormat::new("FREE!ship", &[".fbm"], is_fbm, |bytes| read_fbm(bytes).map(Shape::Net)),
+    BodyFormat::new("FREE!ship", &[".ftm"], is_ftm, |bytes| read_ftm(bytes).map(Shape::Net)),
+    BodyFormat::new("STEP", &[".step", ".stp"], is_step, |bytes| read_step(bytes).map(Shape::Surfaces)),
+    BodyFormat::new("IGES", &[".iges", ".igs"], is_iges, |bytes| read_iges(bytes).map(Shape::Surfaces)),
+    BodyFormat::new("PLY", &[".ply"], is_ply, |bytes| read_ply(bytes).map(plain)),
+    BodyFormat::new("OFF", &[], is_off, |bytes| read_off(bytes).map(plain)),
+    BodyFormat::new("gmsh", &[".msh"], is_msh, |bytes| read_msh(bytes).map(plain)),
+    BodyFormat::new("VTK", &[".vtk"], is_vtk, |bytes| read_vtk(bytes).map(plain)),
+    #[cfg(feature = "packages")]
+    BodyFormat::new("VTK", &[".vtp", ".vtu"], is_vtk_xml, |bytes| read_vtk_xml(bytes).map(plain)),
+    #[cfg(feature = "packages")]
+    BodyFormat::new("3MF", &[".3mf"], is_threemf, |bytes| {
+        read_threemf(bytes).map(|PackagedMesh { mesh, unit }| Shape::Triangles(mesh, Given::plain(unit)))
+    }),
+    BodyFormat::new("STL", &[".stl"], is_stl, |bytes| {
+        read_stl(bytes).map(|parts| Shape::Named(parts, Given::plain(1.0)))
+    }),
+    BodyFormat::new("GLB", &[".glb"], is_glb, |bytes| read_glb(bytes).map(upright)),
+    BodyFormat::new("glTF", &[".gltf"], is_gltf, |bytes| read_gltf(bytes).map(upright)),
+    BodyFormat::new("HydroStar", &[".hst"], is_hydrostar, |bytes| read_hydrostar(bytes).map(Shape::of_panels)),
+    BodyFormat::new("GDF", &[".gdf"], is_gdf, |bytes| read_gdf(bytes).map(Shape::of_panels)),
+    BodyFormat::new("PNL", &[".pnl"], |_| false, |bytes| read_pnl(bytes).map(Shape::of_panels)),
+    BodyFormat::new("NEMOH", &[".mar"], is_nemoh, |bytes| read_nemoh(bytes).map(Shape::of_panels)),
+    BodyFormat::new("OBJ", &[".obj"], is_obj, |bytes| {
+        read_obj(bytes).map(|parts| Shape::Named(parts, Given::plain(1.0)))
+    }),
+];
+
+/// The kind of a file, by its content or the ending of its name.
+fn format(name: &str, bytes: &[u8]) -> Option<&'static BodyFormat> {
+    let name = name.to_ascii_lowercase();
+    FORMATS
+        .iter()
+        .find(|format| (format.recognise)(bytes) || format.endings.iter().any(|ending| name.ends_with(ending)))
+}
+
+/// Reads a body: a mesh (STL, OBJ, PLY, OFF, GLB, glTF, 3MF, VTK, gmsh), panels (GDF, PNL, NEMOH, HydroStar), the
+/// surfaces of a CAD file (STEP, IGES) or a control net (FREE!ship), by its content or its name, with the conventions of
+/// the TOML beside it, given by its name and its text, and of others, each over those before it; none when it is no such
+/// file.
 pub fn read_body<'a>(
     name: &str,
     bytes: &[u8],
     sidecar: impl IntoIterator<Item = (&'a str, &'a str)>,
 ) -> Option<Result<ReadBody, Vec<TableProblem>>> {
-    let (kind, read) = reader(name, bytes)?;
+    let BodyFormat { name: kind, read, .. } = *format(name, bytes)?;
     let mut problems = Problems::new(name);
     let mut settings = Settings::default();
     for (sidecar, text) in sidecar {
@@ -135,8 +184,27 @@ pub fn read_body<'a>(
     {
         return None;
     }
+    let choice = settings.frame.parts.clone();
+    let choice = choice.as_deref();
+    let shape = match shape {
+        Shape::Named(parts, given) => Shape::Triangles(parts::of_names(parts, choice, &mut problems), given),
+        Shape::Net(mut project) => {
+            let names: Vec<&str> = project.net.layers.iter().map(|layer| layer.name.as_str()).collect();
+            let chosen = parts::chosen_names(&names, choice, &mut problems);
+            for (layer, chosen) in project.net.layers.iter_mut().zip(chosen) {
+                layer.in_hydrostatics &= chosen;
+            }
+            Shape::Net(project)
+        }
+        other => {
+            let is_nothing = matches!(other, Shape::Nothing);
+            parts::chosen_names(&[], choice.filter(|_| !is_nothing), &mut problems);
+            other
+        }
+    };
     let mut deviation = 0.0;
     let meshes = match shape {
+        Shape::Named(..) | Shape::Nothing => Vec::new(),
         Shape::Triangles(mesh, given) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
@@ -168,7 +236,6 @@ pub fn read_body<'a>(
             let given = Given { axes: Some(AS_WRITTEN), ..Given::plain(unit) };
             framed(meshes.to_vec(), &settings, &given, &mut problems)
         }
-        Shape::Nothing => Vec::new(),
         Shape::Surfaces(read) => {
             let (meshes, off) = cad::meshes(read, kind, &settings, &mut problems);
             deviation = off;

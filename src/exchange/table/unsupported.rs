@@ -4,13 +4,8 @@
 //! a text of that kind begins with. One message about the kind helps more than one about each of its lines.
 
 /// First bytes of a kind of file.
-const FIRST_BYTES: [(&[u8], &str); 17] = [
-    (b"OFF\n", "a mesh (OFF)"),
-    (b"OFF\r", "a mesh (OFF)"),
-    (b"$MeshFormat", "a mesh (gmsh MSH)"),
-    (b"# vtk DataFile", "a mesh (VTK)"),
-    (b"<VTKFile", "a mesh (VTK)"),
-    (b"ply\r", "a mesh (PLY)"),
+const FIRST_BYTES: [(&[u8], &str); 11] = [
+    (b"<VTKFile", "a mesh (VTK), which needs the feature `packages` of the library"),
     (b"3D Geometry File Format", "a Rhinoceros file (3dm)"),
     (b"\x1f\x8b", "a file compressed by gzip"),
     (b"BZh", "a file compressed by bzip2"),
@@ -21,7 +16,6 @@ const FIRST_BYTES: [(&[u8], &str); 17] = [
     (b"\xff\xd8\xff", "a JPEG picture"),
     (b"AC10", "a drawing (DWG)"),
     (b"\xd0\xcf\x11\xe0", "a workbook or document of the older binary Office format"),
-    (b"ply\n", "a mesh (PLY)"),
 ];
 
 /// Endings of names of files that are no text, or none that we read.
@@ -39,10 +33,7 @@ pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {
         return Some("a web page (HTML)");
     }
     if lower.starts_with("<?xml") && lower.contains("<vtkfile") {
-        return Some("a mesh (VTK)");
-    }
-    if lower.starts_with('{') && lower.contains("\"asset\"") {
-        return Some("a scene (glTF as text; GLB is read)");
+        return Some("a mesh (VTK), which needs the feature `packages` of the library");
     }
     if start.trim_start().starts_with('{') {
         return Some("JSON (of a hull? hydro, section, inspect and report read those)");
