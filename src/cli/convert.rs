@@ -16,7 +16,8 @@ pub(super) struct Arguments {
     /// Table of offsets or body in any of the formats below; hull.json, a folder that holds one, or a design file
     table: PathBuf,
     /// File to write instead of stdout. Its ending says the format: .csv, .xlsx (a workbook); or one of those of
-    /// `export`: .step, .igs, .dxf, .stl, .obj, .glb, .gdf, .mar, .pnl, .gf, .bri, .ftm, .mlt
+    /// `export`: .step, .igs, .dxf, .stl, .obj, .ply, .glb, .3mf, .vtk, .msh, .gdf,
+    /// .mar, .pnl, .gf, .bri, .ftm, .mlt
     #[arg(value_name = "OUT")]
     output: Option<PathBuf>,
     /// The same file, as other commands name theirs
@@ -27,6 +28,8 @@ pub(super) struct Arguments {
     format: Option<ExportFormat>,
     #[command(flatten)]
     conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
     /// How lengths are written: m, mm, feet-inches-eighths, cm, ft or in; as in the table where none is given
     #[arg(long, value_parser = super::offsets::notation)]
     notation: Option<Notation>,
@@ -65,7 +68,7 @@ fn known_ending(output: &Path, table: Option<&Path>) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::Usage(format!(
-        "the ending of {} says no format; known are .csv, .xlsx, .step, .stp, .igs, .iges, .dxf, .stl, .obj, .glb, .gdf, .mar, .pnl, .gf, \
+        "the ending of {} says no format; known are .csv, .xlsx, .step, .stp, .igs, .iges, .dxf, .stl, .obj, .ply, .glb, .3mf, .vtk, .msh, .gdf, .mar, .pnl, .gf, \
          .bri, .ftm, .mlt; --format says another",
         output.display()
     )))
@@ -75,7 +78,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = arguments.output.as_deref().or(arguments.output_file.as_deref());
     let inputs = source_files(&arguments.table);
     let target = stream::Target { file: output, inputs: &inputs, force: arguments.force };
-    let overrides = arguments.conventions.overrides();
+    let overrides = arguments.stations.with(&arguments.conventions);
     let of_name = || output.and_then(|path| ExportFormat::from_ending(&path.to_string_lossy()));
     let hull = is_hull(&arguments.table);
     let table = hull.then(|| {
@@ -100,5 +103,5 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.quiet {
         converted.messages.iter().for_each(|message| stream::message(message));
     }
-    target.table(converted.written.text, &converted.form)
+    target.table(converted.written.text, &converted.form, None)
 }

@@ -18,18 +18,26 @@ use crate::report::{
 pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
-    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl,
-    /// ghs, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan
+    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, ply, glb, 3mf, vtk,
+    /// msh, gdf, nemoh, pnl, ghs, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required_unless_present = "output")]
     format: Vec<ExportFormat>,
     /// Folder for the files, or one file whose ending says the format, as hull.step [default: out/<name of the input>]
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
-    /// Unit of STEP, IGES and DXF files: m or mm; meshes are in metres
+    /// Unit of STEP, IGES, DXF and meshes: m or mm; GLB is in metres always
     #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
     unit: CadUnit,
     #[command(flatten)]
     conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
+    /// Lengths of meshes over those of the hull, as 1:50 or 0.02
+    #[arg(long, value_parser = scale, value_name = "RATIO", default_value = "1")]
+    scale: f64,
+    /// Meshes of the half y >= 0, closed on the centreplane
+    #[arg(long)]
+    half: bool,
     /// Version of DXF files: r12 or r2000
     #[arg(long, value_parser = dxf_version, value_name = "VERSION", default_value = "r12")]
     dxf: DxfVersion,
@@ -68,10 +76,11 @@ const AFTER: &str = "\
 step: AP214, a closed solid of untrimmed B-spline faces with the exact net and knots of the hull; iges: 5.3, the same solid \
 as entity 186 of entities 128. Where the deck at side or the \
 centreplane cuts the surface, the faces follow it within a distance that the page says.
-dxf: polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS; dxf-plan: the three views of the lines plan in one \
+dxf: polylines in space on the layers STATIONS, WATERLINES, BUTTOCKS, STEM, STERN, KEEL, SHEER and KNUCKLES; dxf-plan: the three views of the lines plan in one \
 plane at full size, on layers BODY_..., PROFILE_... and PLAN_... .
-stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
-and deck (named in stl-ascii, obj and glb). No triangle has an angle of less than 15 degrees but at a corner of the body that is \
+stl, stl-ascii, obj, ply, glb, 3mf, vtk, msh: one closed mesh of the body up to its deck, normals outward; with --half that of the side \
+to port, closed on the centreplane. Its regions are hull, bottom, transom, bow, deck and centreplane: named in stl-ascii, obj, glb and msh, numbered in vtk. \
+No triangle has an angle of less than 15 degrees but at a corner of the body that is \
 sharper (the end of a flat bottom, a deck to a point); the page tells whether the mesh is closed, its edges, its least angle, those corners, \
 how many triangles are below the bound elsewhere (where a face is narrower than the deviation over a length), and its volume against the hull's.
 gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \
@@ -103,7 +112,16 @@ fn flatness(text: &str) -> Result<f64, String> {
     if (0.0..=1.0).contains(&ratio) { Ok(ratio) } else { Err("expected 0 to 1".to_owned()) }
 }
 
-fn unit(text: &str) -> Result<CadUnit, String> {
+fn scale(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let ratio = match text.split_once([':', '/']) {
+        Some((over, under)) => number(over).zip(number(under)).map(|(over, under)| over / under),
+        None => number(text),
+    };
+    ratio.filter(|ratio| (1e-6..=1e6).contains(ratio)).ok_or_else(|| "expected a ratio, as 1:50 or 0.02".to_owned())
+}
+
+pub(super) fn unit(text: &str) -> Result<CadUnit, String> {
     match text {
         "m" => Ok(CadUnit::Metre),
         "mm" => Ok(CadUnit::Millimetre),
@@ -184,7 +202,7 @@ fn each(
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
+    let source = read_source_with(&arguments.hull, &arguments.stations.with(&arguments.conventions))?;
     let stem = stem(&arguments.hull).to_string_lossy().into_owned();
     let Output { folder, file, formats } = Output::of(arguments, &stem)?;
     let datum = match arguments.datum {
@@ -193,6 +211,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let settings = ExportSettings {
         unit: arguments.unit,
+        scale: arguments.scale,
+        half: arguments.half,
         dxf: arguments.dxf,
         deviation: arguments.deviation,
         across: usize::from(arguments.divisions_across),

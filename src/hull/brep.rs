@@ -7,7 +7,7 @@
 //! the two is extrapolated (see [`super::TriangleMesh::nested`]).
 
 mod curve;
-mod face;
+pub(in crate::hull) mod face;
 mod nearest;
 mod outline;
 mod sew;

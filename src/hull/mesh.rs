@@ -19,6 +19,7 @@
 //! vertices. What is narrower than half of the tolerance has no face.
 
 mod body;
+mod centreplane;
 mod change;
 mod half;
 mod mirror;
@@ -26,7 +27,7 @@ mod shape;
 mod start;
 
 use self::body::Body;
-use self::half::least_sine;
+use self::half::{Half, least_sine};
 use super::form::Hull;
 use super::functional::Functional;
 use crate::spline::{cross, dot, length, minus};
@@ -68,11 +69,13 @@ pub enum Region {
     Bow,
     /// The deck.
     Deck,
+    /// The cut along the centreplane, of half a body.
+    Centreplane,
 }
 
 impl Region {
     /// All of them, in the order of files.
-    pub const ALL: [Self; 5] = [Self::Hull, Self::Bottom, Self::Transom, Self::Bow, Self::Deck];
+    pub const ALL: [Self; 6] = [Self::Hull, Self::Bottom, Self::Transom, Self::Bow, Self::Deck, Self::Centreplane];
 
     /// Its name in files.
     #[must_use]
@@ -83,6 +86,7 @@ impl Region {
             Self::Transom => "transom",
             Self::Bow => "bow",
             Self::Deck => "deck",
+            Self::Centreplane => "centreplane",
         }
     }
 }
@@ -204,6 +208,18 @@ impl HullMesh {
     /// # Errors
     /// [`MeshError::TooMany`] when it would have more than 4,000,000 triangles; nothing of that size is laid out.
     pub fn new(hull: &Hull, deviation: f64, across: usize) -> Result<Self, MeshError> {
+        Self::made(hull, deviation, across, mirror::whole)
+    }
+
+    /// The half y >= 0 of such a mesh, closed by a face on the centreplane, whose triangles keep no bound of their angles.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn half(hull: &Hull, deviation: f64, across: usize) -> Result<Self, MeshError> {
+        Self::made(hull, deviation, across, centreplane::closed)
+    }
+
+    fn made(hull: &Hull, deviation: f64, across: usize, make: fn(&Half<'_>) -> Self) -> Result<Self, MeshError> {
         let [us, ws] = lines(hull, deviation);
         let across = across.max(1).div_ceil(2);
         let strips = 4 * across * (us.len() + ws.len());
@@ -214,7 +230,7 @@ impl HullMesh {
         let body = Body::new(hull, &us);
         let mut half = start::half(&body, [&us, &ws], deviation, across);
         half.shape();
-        Ok(mirror::whole(&half))
+        Ok(make(&half))
     }
 
     /// Triangles with an angle of less than [`LEAST_ANGLE`] that stand at none of the sharp corners: 0 but where the
@@ -224,7 +240,7 @@ impl HullMesh {
         let known: HashSet<(usize, Region)> = self.sharp_corners.iter().map(|c| (c.vertex, c.region)).collect();
         let is_sliver = |(region, corners): &&(Region, [usize; 3])| {
             let (sine, at) = least_sine(corners.map(|k| self.vertices[k]));
-            sine < LEAST_ANGLE.sin() && !known.contains(&(corners[at], *region))
+            *region != Region::Centreplane && sine < LEAST_ANGLE.sin() && !known.contains(&(corners[at], *region))
         };
         self.triangles.iter().filter(is_sliver).count()
     }

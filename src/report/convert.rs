@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use super::export::{ExportFormat, ExportSettings, export};
+use super::export::{ExportFormat, ExportSettings, export, mesh_file};
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::source::{Overrides, ending, read_bytes, read_source_with, read_table_file_with, sidecar};
 use crate::exchange::{
-    Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, section_of, write_britfair,
-    write_delftship, write_freeship, write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl,
-    write_stl_ascii, write_table,
+    CadUnit, Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, section_of,
+    write_britfair, write_delftship, write_freeship, write_ftm, write_ghs, write_pdstrip, write_pias, write_table,
 };
 use crate::hull::{AFLOAT, AT_EDGE, HullError, HullMesh, OffsetTable, OutlinePoint, Region, TableForm, TableLayout};
 use crate::units::counted;
@@ -109,12 +108,7 @@ fn of_triangles(path: &Path, overrides: &Overrides, format: ExportFormat) -> Res
         triangles: triangles.triangles.into_iter().map(|corners| (Region::Hull, corners)).collect(),
         sharp_corners: Vec::new(),
     };
-    let contents = match format {
-        ExportFormat::Stl => write_stl(&mesh, &body.name),
-        ExportFormat::StlAscii => write_stl_ascii(&mesh).into_bytes(),
-        ExportFormat::Obj => write_obj(&mesh, &body.name).into_bytes(),
-        _ => write_glb(&mesh, &body.name),
-    };
+    let contents = mesh_file(&mesh, &body.name, format, CadUnit::Metre)?;
     Ok(Some((contents, body.notes.iter().map(ToString::to_string).collect())))
 }
 

@@ -1,5 +1,6 @@
 //! A hull for other programs: the files, and what the page reports of them.
 
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use super::failure::Failure;
@@ -7,8 +8,8 @@ use super::files::OutputFile;
 use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
     CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_britfair, write_delftship, write_dxf, write_freeship,
-    write_ftm, write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_nemoh, write_obj, write_pdstrip,
-    write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
+    write_ftm, write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_msh, write_nemoh, write_obj,
+    write_pdstrip, write_pias, write_ply, write_pnl, write_step, write_stl, write_stl_ascii, write_threemf, write_vtk,
 };
 use crate::hull::{
     Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, SharpCorner,
@@ -34,8 +35,16 @@ pub enum ExportFormat {
     StlAscii,
     /// Wavefront OBJ with groups.
     Obj,
+    /// PLY.
+    Ply,
     /// Binary glTF 2.0.
     Glb,
+    /// 3MF.
+    ThreeMf,
+    /// Legacy VTK with the number of the region of each triangle.
+    Vtk,
+    /// gmsh 2.2 with regions as physical groups.
+    Msh,
     /// Panels of WAMIT.
     Gdf,
     /// Panels of NEMOH.
@@ -68,14 +77,18 @@ pub enum ExportFormat {
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 25] = [
         Self::Step,
         Self::Iges,
         Self::Dxf,
         Self::Stl,
         Self::StlAscii,
         Self::Obj,
+        Self::Ply,
         Self::Glb,
+        Self::ThreeMf,
+        Self::Vtk,
+        Self::Msh,
         Self::Gdf,
         Self::Nemoh,
         Self::Pnl,
@@ -102,7 +115,11 @@ impl ExportFormat {
             Self::Stl => "stl",
             Self::StlAscii => "stl-ascii",
             Self::Obj => "obj",
+            Self::Ply => "ply",
             Self::Glb => "glb",
+            Self::ThreeMf => "3mf",
+            Self::Vtk => "vtk",
+            Self::Msh => "msh",
             Self::Gdf => "gdf",
             Self::Nemoh => "nemoh",
             Self::Pnl => "pnl",
@@ -129,7 +146,11 @@ impl ExportFormat {
             Self::Stl => ".stl",
             Self::StlAscii => "-ascii.stl",
             Self::Obj => ".obj",
+            Self::Ply => ".ply",
             Self::Glb => ".glb",
+            Self::ThreeMf => ".3mf",
+            Self::Vtk => ".vtk",
+            Self::Msh => ".msh",
             Self::Gdf => ".gdf",
             Self::Nemoh => ".mar",
             Self::Pnl => ".pnl",
@@ -159,7 +180,10 @@ impl ExportFormat {
     }
 
     pub(super) const fn is_mesh(self) -> bool {
-        matches!(self, Self::Stl | Self::StlAscii | Self::Obj | Self::Glb)
+        matches!(
+            self,
+            Self::Stl | Self::StlAscii | Self::Obj | Self::Ply | Self::Glb | Self::ThreeMf | Self::Vtk | Self::Msh
+        )
     }
 
     const fn is_sections(self) -> bool {
@@ -179,8 +203,12 @@ impl ExportFormat {
 /// How it is exported.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExportSettings {
-    /// Unit of CAD files.
+    /// Unit of CAD files and meshes; GLB is in metres always.
     pub unit: CadUnit,
+    /// Lengths of meshes over those of the hull.
+    pub scale: f64,
+    /// Whether meshes are of the half y >= 0, closed on the centreplane.
+    pub half: bool,
     /// Version of DXF files.
     pub dxf: DxfVersion,
     /// What a mesh, or a polyline of a DXF file, leaves the surface by at most \[m\]; none: 1e-3 of the breadth.
@@ -206,6 +234,8 @@ impl Default for ExportSettings {
     fn default() -> Self {
         Self {
             unit: CadUnit::Metre,
+            scale: 1.0,
+            half: false,
             dxf: DxfVersion::R12,
             deviation: None,
             across: 8,
@@ -419,6 +449,10 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
             return Err(Failure::without_draught(&format!("--format {}", needy.join(",")), needy.len()));
         }
     }
+    let is_changed = settings.half || (settings.scale - 1.0).abs() > 0.0;
+    if let Some(other) = formats.iter().find(|format| is_changed && !format.is_mesh()) {
+        return Err(Failure::Usage(format!("--half and --scale are of meshes, and {} is none", other.name())));
+    }
     let (breadth, depth) = (hull.particulars().breadth, hull.particulars().depth);
     let least = LEAST_DEVIATION * breadth;
     if let Some(deviation) = settings.deviation.filter(|deviation| *deviation < least) {
@@ -444,6 +478,33 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
     Ok(())
 }
 
+/// The extent of a mesh along x.
+fn length_of(mesh: &HullMesh) -> f64 {
+    let ends = mesh.vertices.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], [x, ..]| [a.min(*x), b.max(*x)]);
+    ends[1] - ends[0]
+}
+
+/// The file of a mesh \[m\] in a format of meshes.
+///
+/// # Errors
+/// [`Failure::Usage`] where the library was built without the format.
+pub(super) fn mesh_file(mesh: &HullMesh, title: &str, format: ExportFormat, unit: CadUnit) -> Result<Vec<u8>, Failure> {
+    let mut mesh = Cow::Borrowed(mesh);
+    if unit != CadUnit::Metre && format != ExportFormat::Glb {
+        mesh.to_mut().vertices.as_flattened_mut().iter_mut().for_each(|c| *c *= unit.in_a_metre());
+    }
+    Ok(match format {
+        ExportFormat::StlAscii => write_stl_ascii(&mesh).into_bytes(),
+        ExportFormat::Obj => write_obj(&mesh, title).into_bytes(),
+        ExportFormat::Ply => write_ply(&mesh, title).into_bytes(),
+        ExportFormat::Glb => write_glb(&mesh, title),
+        ExportFormat::ThreeMf => write_threemf(&mesh, 1.0 / unit.in_a_metre()).map_err(Failure::Usage)?,
+        ExportFormat::Vtk => write_vtk(&mesh, title).into_bytes(),
+        ExportFormat::Msh => write_msh(&mesh).into_bytes(),
+        _ => write_stl(&mesh, title),
+    })
+}
+
 /// Writes a hull in the formats; `name` begins the names of the files.
 ///
 /// # Errors
@@ -465,11 +526,19 @@ pub fn export(
     let (mut files, mut page) = (Vec::new(), Vec::new());
     let title = if hull.name().is_empty() { name } else { hull.name() };
     let mesh = if formats.iter().any(|format| format.is_mesh()) {
-        let mut mesh = HullMesh::new(hull, deviation, settings.across)
+        let make = if settings.half { HullMesh::half } else { HullMesh::new };
+        let mut mesh = make(hull, deviation, settings.across)
             .map_err(|error| Failure::Usage(format!("--deviation {deviation} m: {error}; take a larger one")))?;
         let report = mesh.report();
-        page.push(mesh_line(&mesh, &report, volume));
+        page.push(mesh_line(&mesh, &report, if settings.half { 0.5 * volume } else { volume }));
+        if settings.half {
+            page.push("half of the body: y >= 0, closed on the centreplane; volumes are of the half".to_owned());
+        }
         lowered(&mut mesh.vertices, settings.datum);
+        if (settings.scale - 1.0).abs() > 0.0 {
+            mesh.vertices.as_flattened_mut().iter_mut().for_each(|c| *c *= settings.scale);
+            page.push(format!("scale of the mesh: {}, a length of {:.4} m", settings.scale, length_of(&mesh)));
+        }
         Some(mesh)
     } else {
         None
@@ -557,10 +626,7 @@ pub fn export(
             (ExportFormat::Gdf, ..) => write_gdf(&panels, title).into_bytes(),
             (ExportFormat::Nemoh, ..) => write_nemoh(&panels).into_bytes(),
             (ExportFormat::Pnl, ..) => write_pnl(&panels).into_bytes(),
-            (ExportFormat::Stl, Some(mesh), _) => write_stl(mesh, title),
-            (ExportFormat::StlAscii, Some(mesh), _) => write_stl_ascii(mesh).into_bytes(),
-            (ExportFormat::Obj, Some(mesh), _) => write_obj(mesh, title).into_bytes(),
-            (ExportFormat::Glb, Some(mesh), _) => write_glb(mesh, title),
+            (format, Some(mesh), _) if format.is_mesh() => mesh_file(mesh, title, format, settings.unit)?,
             (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Dxf, ..) => write_dxf(

@@ -1,7 +1,8 @@
 //! The curves of the lines plan as polylines: in space, and in the three views of a drawing.
 
 use crate::exchange::DxfLine;
-use crate::hull::{Cut, Hull, StationNumbers, default_buttocks, default_stations, default_waterlines};
+use crate::hull::{Branch, Cut, Face, Hull, StationNumbers, default_buttocks, default_stations, default_waterlines};
+use crate::spline::{dot, length, minus};
 
 /// Points of the deck at side.
 const DECK_POINTS: usize = 200;
@@ -14,11 +15,80 @@ fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
     hull.section(cut, 1e-9).branches.iter().map(|branch| branch.polyline(deviation)).collect()
 }
 
-/// Stations, waterlines and buttocks in space on layers of their names, both sides, z = 0 at `datum` \[m\].
+/// The part of a line below the deck at side, up to where it meets it.
+fn below_deck(hull: &Hull, points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let over = |p: &[f64; 3]| p[2] - hull.deck_height(p[0]);
+    let mut kept: Vec<[f64; 3]> = Vec::new();
+    for point in points {
+        if over(point) <= 0.0 {
+            kept.push(*point);
+            continue;
+        }
+        if let Some(&last) = kept.last() {
+            let share = over(&last) / (over(&last) - over(point));
+            kept.push([0, 1, 2].map(|k| last[k] + share * (point[k] - last[k])));
+        }
+        break;
+    }
+    kept
+}
+
+/// A line without the points that its other points keep within `deviation` \[m\] (Ramer, Douglas and Peucker).
+fn thinned(points: &[[f64; 3]], deviation: f64) -> Vec<[f64; 3]> {
+    let mut kept = vec![false; points.len()];
+    let mut open = vec![(0, points.len().saturating_sub(1))];
+    while let Some((from, to)) = open.pop() {
+        if points.is_empty() {
+            break;
+        }
+        (kept[from], kept[to]) = (true, true);
+        let chord = minus(points[to], points[from]);
+        let squared = dot(chord, chord);
+        let off = |point: [f64; 3]| {
+            let out = minus(point, points[from]);
+            let share = if squared > 0.0 { (dot(out, chord) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            length([0, 1, 2].map(|k| out[k] - share * chord[k]))
+        };
+        let farthest = (from + 1..to).map(|k| (k, off(points[k]))).max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((k, _)) = farthest.filter(|(_, distance)| *distance > deviation) {
+            open.extend([(from, k), (k, to)]);
+        }
+    }
+    points.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
+}
+
+/// Stem, stern, keel, sheer (the deck at side) and knuckles, each with its layer.
+fn own_lines(hull: &Hull, deviation: f64) -> Vec<(&'static str, Vec<[f64; 3]>)> {
+    let surface = hull.surface();
+    let ((aft, fore), (low, _)) = (surface.u().domain(), surface.v().domain());
+    let polyline = |curve| Branch { face: Face::Side, curve, closed: false }.polyline(deviation);
+    let ends = [("STERN", aft), ("STEM", fore)];
+    let mut lines: Vec<(&'static str, Vec<[f64; 3]>)> =
+        ends.map(|(layer, u)| (layer, below_deck(hull, &polyline(surface.curve_at_u(u))))).to_vec();
+    lines.push(("KEEL", polyline(surface.curve_at_v(low))));
+    lines.push(("SHEER", thinned(&sheer(hull), deviation)));
+    lines.extend(hull.knuckle_lines().iter().map(|line| ("KNUCKLES", thinned(line, deviation))));
+    lines
+}
+
+/// The deck at side.
+fn sheer(hull: &Hull) -> Vec<[f64; 3]> {
+    let xs = hull.surface().points().iter().map(|point| point[0]);
+    let [aft, fore] = xs.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+    let point = |k: usize| {
+        let x = aft + (fore - aft) * k as f64 / DECK_POINTS as f64;
+        let z = hull.deck_height(x);
+        hull.half_breadth(x, z).map(|y| [x, y, z])
+    };
+    (0..=DECK_POINTS).filter_map(point).collect()
+}
+
+/// Stations, waterlines and buttocks in space on layers of their names, stem, stern, keel, sheer and knuckles on theirs, both
+/// sides, z = 0 at `datum` \[m\].
 pub(super) fn lines_in_space(hull: &Hull, numbers: StationNumbers, deviation: f64, datum: f64) -> Vec<DxfLine> {
     let mut lines = Vec::new();
-    let mut add = |layer: &str, cut: Cut| {
-        for mut points in curves(hull, cut, deviation) {
+    let mut put = |layer: &str, all: Vec<Vec<[f64; 3]>>| {
+        for mut points in all {
             points.iter_mut().for_each(|point| point[2] -= datum);
             let mirrored = points.iter().any(|point| point[1].abs() > 1e-9);
             let other: Vec<[f64; 3]> = points.iter().map(|&[x, y, z]| [x, 0.0 - y, z]).collect();
@@ -29,13 +99,16 @@ pub(super) fn lines_in_space(hull: &Hull, numbers: StationNumbers, deviation: f6
         }
     };
     for station in default_stations(hull, numbers) {
-        add("STATIONS", Cut::Station { x: station.x });
+        put("STATIONS", curves(hull, Cut::Station { x: station.x }, deviation));
     }
     for z in default_waterlines(hull) {
-        add("WATERLINES", Cut::Waterline { z });
+        put("WATERLINES", curves(hull, Cut::Waterline { z }, deviation));
     }
     for y in default_buttocks(hull) {
-        add("BUTTOCKS", Cut::Buttock { y });
+        put("BUTTOCKS", curves(hull, Cut::Buttock { y }, deviation));
+    }
+    for (layer, points) in own_lines(hull, deviation) {
+        put(layer, vec![points]);
     }
     lines
 }
@@ -90,13 +163,7 @@ pub(super) fn drawn_plan(hull: &Hull, numbers: StationNumbers, deviation: f64, d
     for points in curves(hull, Cut::Buttock { y: 0.0 }, deviation) {
         put("PROFILE_OUTLINE", points.into_iter().map(profile).collect());
     }
-    let deck: Vec<[f64; 3]> = (0..=DECK_POINTS)
-        .map(|k| aft + (fore - aft) * k as f64 / DECK_POINTS as f64)
-        .filter_map(|x| {
-            let z = hull.deck_height(x);
-            hull.half_breadth(x, z).map(|y| [x, y, z])
-        })
-        .collect();
+    let deck = sheer(hull);
     put("PROFILE_DECK", deck.iter().copied().map(profile).collect());
     put("PLAN_DECK", deck.into_iter().map(plan).collect());
     lines

@@ -80,6 +80,8 @@ pub fn write_dxf(lines: &[DxfLine], unit: CadUnit, version: DxfVersion) -> Strin
     let mut put = |code: u16, value: &str| {
         let _ = writeln!(text, "{code:>3}\n{value}");
     };
+    // R12 has no units of its own.
+    put(999, if unit == CadUnit::Metre { "UNITS: METRES, FULL SIZE" } else { "UNITS: MILLIMETRES, FULL SIZE" });
     put(0, "SECTION");
     put(2, "HEADER");
     put(9, "$ACADVER");

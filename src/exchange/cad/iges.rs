@@ -28,7 +28,7 @@ const fn colour(region: Region) -> usize {
         Region::Hull => 4,
         Region::Bottom => 2,
         Region::Transom | Region::Bow => 7,
-        Region::Deck => 5,
+        Region::Deck | Region::Centreplane => 5,
     }
 }
 

@@ -75,7 +75,7 @@ fn colour(region: Region) -> [f64; 3] {
         Region::Bottom => [0.55, 0.15, 0.1],
         Region::Transom => [0.4, 0.6, 0.75],
         Region::Bow => [0.25, 0.45, 0.65],
-        Region::Deck => [0.85, 0.8, 0.7],
+        Region::Deck | Region::Centreplane => [0.85, 0.8, 0.7],
     }
 }
 

@@ -70,7 +70,10 @@ impl Fence {
 
 /// Which faces of a triangulation are inside its constraints: from outside in, over each of them once. Lines that are run
 /// through `twice` divide nothing.
-fn inside(net: &ConstrainedDelaunayTriangulation<Point2<f64>>, twice: &HashSet<[usize; 2]>) -> Vec<bool> {
+pub(in crate::hull) fn inside(
+    net: &ConstrainedDelaunayTriangulation<Point2<f64>>,
+    twice: &HashSet<[usize; 2]>,
+) -> Vec<bool> {
     let mut known: Vec<Option<bool>> = vec![None; net.num_all_faces()];
     let mut next = vec![net.outer_face().index()];
     known[next[0]] = Some(false);

@@ -217,7 +217,8 @@ impl<'a> Body<'a> {
     pub(super) fn edge_place(&self, region: Region, along: f64) -> [f64; 2] {
         let [[a, b], [c, d]] = self.ends;
         match region {
-            Region::Hull | Region::Bottom => [along, c],
+            // The centreplane closes half of a finished mesh.
+            Region::Hull | Region::Bottom | Region::Centreplane => [along, c],
             Region::Deck => [along, d],
             Region::Transom => [a, along],
             Region::Bow => [b, along],
@@ -246,7 +247,7 @@ impl<'a> Body<'a> {
         }
         let end = |last: bool| self.ends[axis][usize::from(last)];
         let along = match region {
-            Region::Hull => return *site,
+            Region::Hull | Region::Centreplane => return *site,
             Region::Bottom | Region::Deck => end(site.region == Region::Bow),
             Region::Transom | Region::Bow => end(site.region == Region::Deck),
         };
