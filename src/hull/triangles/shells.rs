@@ -189,6 +189,17 @@ impl TriangleMesh {
         holes.iter().filter_map(hole).max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
+    /// The shells, those with the largest boxes around them first.
+    #[must_use]
+    pub fn parts(&self) -> Vec<Self> {
+        let part =
+            |shell: &Vec<usize>| Self::from_corners(shell.iter().map(|&t| self.triangles[t].map(|v| self.vertices[v])));
+        let size = |mesh: &Self| mesh.bounds().map_or(0.0, |[low, high]| (0..3).map(|k| high[k] - low[k]).product());
+        let mut parts: Vec<(f64, Self)> = self.shells().iter().map(part).map(|mesh| (size(&mesh), mesh)).collect();
+        parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        parts.into_iter().map(|(_, mesh)| mesh).collect()
+    }
+
     /// Triangles that hang together across edges of two.
     fn shells(&self) -> Vec<Vec<usize>> {
         let neighbours = self.neighbours();

@@ -2,6 +2,7 @@
 
 use super::super::problem::{FilePosition, Problems};
 use super::super::settings::{BodyFrame, Settings};
+use super::parts::of_numbers;
 use crate::hull::{BodyPart, InnerShells, TriangleMesh};
 use crate::units::counted;
 
@@ -107,6 +108,8 @@ pub(in super::super) fn framed(
                 let message = format!("{} given twice: counted once", counted(doubles, "triangle"));
                 problems.warning("W320", FilePosition::FILE, message, "");
             }
+            let choice = settings.frame.parts.as_deref();
+            *mesh = of_numbers(std::mem::take(mesh), choice, if k == 0 { Some(&mut *problems) } else { None });
         }
         if k == 0 {
             half = one_side(mesh, settings.frame.half, given.half, problems);
