@@ -39,6 +39,21 @@ pub fn offsets_csv(table: &OffsetTable, notation: Notation, endings: bool) -> St
     text
 }
 
+/// Bevels \[deg\] at the waterlines of the table, a row for each of its stations.
+#[must_use]
+pub fn bevels_csv(table: &OffsetTable, bevels: &[Vec<Option<f64>>], notation: Notation) -> String {
+    let one = |value: f64| place(notation, value);
+    let mut head = vec![format!("x\\z [{}], bevels in degrees", notation.as_str())];
+    head.extend(table.waterlines.iter().map(|&z| one(z)));
+    let mut text = line(&head);
+    for (station, bevels) in table.stations.iter().zip(bevels) {
+        let mut row = vec![one(station.station.x)];
+        row.extend(bevels.iter().map(|angle| angle.map_or_else(String::new, |angle| format!("{angle:.2}"))));
+        text.push_str(&line(&row));
+    }
+    text
+}
+
 /// Heights at the buttocks; then keel (lowest point on the centreplane), half-breadth of the flat of bottom, height of
 /// the deck at side and half-breadth there.
 #[must_use]

@@ -15,6 +15,8 @@ mod form;
 mod functional;
 mod immersion;
 mod inertia;
+mod knuckles;
+mod loft;
 mod mesh;
 mod offsets;
 mod outlines;
@@ -46,6 +48,7 @@ pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use inertia::{transverse_inertia, transverse_inertia_gradient};
+pub use loft::{FramePoint, LoftedFrame};
 pub use mesh::{HullMesh, LEAST_ANGLE, MeshError, MeshReport, Region, SharpCorner, whole_volume};
 pub use offsets::{
     OffsetStation, OffsetTable, StationNumbers, StationOffsets, default_buttocks, default_diagonals, default_stations,

@@ -34,6 +34,7 @@ mod hydrostatics;
 mod label;
 mod lines;
 mod lines_grid;
+mod loft;
 mod map_legend;
 mod outline;
 mod pages;
@@ -88,6 +89,7 @@ pub use grades::{GradePoint, grades_figure};
 /// The embedded typeface, DejaVu Sans, as the file of its font.
 pub const FONT: &[u8] = font::DEJAVU_SANS;
 
+pub use loft::{LoftSheet, loft_frame, loft_tile_count, loft_tiles};
 pub use pages::{Heading, Page};
 pub use pareto::pareto_figure;
 pub use pdf::write_pdf;

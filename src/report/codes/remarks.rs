@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 38] = [
+pub(super) const REMARKS: [Explanation; 39] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -271,6 +271,13 @@ pub(super) const REMARKS: [Explanation; 38] = [
          of the hull.",
         example: "`volume 4.73 m3, -3.8e-01 of the hull's`.",
         remedy: "Take a smaller `--deviation`, or a format of surfaces.",
+    },
+    Explanation {
+        code: "W515",
+        title: "Frames that are not reached",
+        cause: "Frames of `loft` lie beyond the ends of the surface, or of the face inside or outside its skin.",
+        example: "`loftsman loft hull.json --frames -5,10,20` where the hull begins at 0 m.",
+        remedy: "Give frames between the ends of the hull.",
     },
     Explanation {
         code: "W520",
