@@ -29,7 +29,8 @@ pub(super) struct RunFiles {
 
 /// What files about an input are called: its name without ending, or `hull` of standard input.
 pub(super) fn stem(input: &Path) -> &OsStr {
-    input.file_stem().filter(|stem| *stem != "-").unwrap_or_else(|| "hull".as_ref())
+    let stem = input.file_stem().filter(|stem| *stem != "-").unwrap_or_else(|| "hull".as_ref());
+    stem.to_str().and_then(|name| name.strip_prefix("catalogue:")).map_or(stem, OsStr::new)
 }
 
 impl RunFiles {

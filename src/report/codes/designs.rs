@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const DESIGNS: [Explanation; 53] = [
+pub(super) const DESIGNS: [Explanation; 54] = [
     Explanation {
         code: "E101",
         title: "Value out of its range",
@@ -212,6 +212,13 @@ pub(super) const DESIGNS: [Explanation; 53] = [
         cause: "The name of the file has control characters or is too long.",
         example: "A file whose name has a line break.",
         remedy: "Rename the file.",
+    },
+    Explanation {
+        code: "E133",
+        title: "Hull that is not in the catalogue",
+        cause: "A path begins with `catalogue:`, and the name behind it is none of the catalogue.",
+        example: "`loftsman hydro catalogue:s157`.",
+        remedy: "Take a name that `loftsman catalogue` lists.",
     },
     Explanation {
         code: "E140",
