@@ -85,6 +85,13 @@ fn same(text: &str, conventions: &str) -> Vec<String> {
     warnings.map(|note| format!("{} {}", note.code, note.message)).collect()
 }
 
+/// Warnings of a table, with their remedies.
+#[track_caller]
+fn warnings(text: &str, conventions: &str) -> Vec<String> {
+    let read = read(text, conventions).unwrap_or_else(|list| panic!("{}\n{text}", list[0]));
+    read.notes.iter().filter(|note| note.severity == Severity::Warning).map(ToString::to_string).collect()
+}
+
 #[track_caller]
 fn warns(warnings: &[String], code: &str, of: &str) {
     assert!(warnings.iter().any(|w| w.starts_with(code) && w.contains(of)), "{code} {of}: {warnings:?}");
@@ -400,4 +407,174 @@ fn boats_of_other_writings() {
     let found = loftsman::exchange::read_table("boat.csv", text.as_bytes())
         .unwrap_or_else(|list| panic!("{}\n{text}", list[0]));
     assert_eq!(found.table.stations.len(), 9);
+}
+
+/// Stations of which nothing says that they are numbers: a hull of 20 m by 16 m.
+#[test]
+fn stations_that_may_be_numbers_are_warned_of() {
+    for corner in ["", "No.", "Half-breadths"] {
+        let text = matrix(corner, &numbers("0", "20"), &columns(|z| format!("{z} m")), metres);
+        let found = warnings(&text, "");
+        assert!(
+            found.iter().any(|w| w.contains("may be numbers") && w.contains("numbers from FP")),
+            "{corner}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn stations_numbered_from_one_begin_at_a_perpendicular() {
+    let heads: Vec<String> = (1..22).map(|k| k.to_string()).collect();
+    let text = matrix("Station", &heads, &columns(|z| format!("{z} m")), metres);
+    let found = same(&text, "[table]\nLpp = 100\nunits = \"m\"\n");
+    assert!(found.iter().any(|w| w.contains("1 is taken as AP")), "{found:?}");
+}
+
+#[test]
+fn the_fuller_end_is_the_stern() {
+    // Full at one end: a transom of half the breadth.
+    let full = |x: f64, z: f64| half_breadth(x, z) + 4.0 * (1.0 - x / 100.0);
+    let of = |turned: bool| {
+        let mut text = String::from("Station,0 m,3 m,6 m\n");
+        for k in 0..21 {
+            let x = if turned { 100.0 - 5.0 * f64::from(k) } else { 5.0 * f64::from(k) };
+            let cells: Vec<String> = [0.0, 3.0, 6.0].iter().map(|z| metres(full(x, *z))).collect();
+            writeln!(text, "{k},{}", cells.join(",")).unwrap();
+        }
+        let read = read(&text, "[table]\nLpp = 100\nunits = \"m\"\n").unwrap();
+        let said = read.notes.iter().any(|note| note.message.contains("because the fuller end is the stern"));
+        (read.table.stations[0].half_breadth(2).unwrap(), said)
+    };
+    assert_eq!((of(false), of(true)), ((4.0, true), (4.0, true)));
+}
+
+#[test]
+fn sentences_say_where_stations_count_from() {
+    let conventions = "[table]\nLpp = 100\nunits = \"m\"\n";
+    let forward = || (0..21).rev().map(|k| format!("{}", 5 * k)).collect::<Vec<String>>();
+    let of = |title: &str, corner: &str| {
+        format!("{title}{}", matrix(corner, &forward(), &columns(|z| format!("{z} m")), metres))
+    };
+    for (title, corner) in [
+        ("", "Distance from stem (m)"),
+        ("", "Distance from bow (m)"),
+        ("", "x aft [m]"),
+        ("Origin at forward perpendicular\n", "x [m]"),
+        ("# Distances from the F.P.\n", "x [m]"),
+    ] {
+        same(&of(title, corner), conventions);
+    }
+    let numbered = matrix("Station", &numbers("0", "20"), &columns(|z| format!("{z} m")), metres);
+    let spaced = "[table]\nunits = \"m\"\n";
+    for words in ["# Station spacing: 5 m\n", "Station spacing,5 m\n\n", "# Stations 5 m apart\n"] {
+        let found = same(&format!("{words}{numbered}"), spaced);
+        assert!(!found.iter().any(|w| w.contains("1 m apart")), "{words}: {found:?}");
+    }
+    let turned: Vec<String> = (0..21).map(|k| (20 - k).to_string()).collect();
+    let of = |words: &str| format!("{words}{}", matrix("Station", &turned, &columns(|z| format!("{z} m")), metres));
+    for words in ["Stations are numbered from the F.P.\n\n", "# station 0 is at the forward perpendicular\n"] {
+        let found = same(&of(words), conventions);
+        assert!(!found.iter().any(|w| w.contains("nothing says")), "{words}: {found:?}");
+    }
+    let midship: Vec<String> = (0..21).map(|k| format!("{}", 50 - 5 * k)).collect();
+    same(&matrix("x from midship (+ aft) [m]", &midship, &columns(|z| format!("{z} m")), metres), conventions);
+}
+
+#[test]
+fn lines_that_are_something_else_are_warned_of() {
+    let more = |name: &str, of: &dyn Fn(f64) -> f64| {
+        let text = matrix("x [m]", &distances(), &columns(|z| format!("{z} m")), metres);
+        let rows = text.lines().enumerate().map(|(k, row)| {
+            let cell = if k == 0 { name.to_owned() } else { metres(of(5.0 * (k - 1) as f64)) };
+            format!("{row},{cell}\n")
+        });
+        warnings(&rows.collect::<String>(), "")
+    };
+    let found = more("sheer", &|x| half_breadth(x, 7.5) * 0.8);
+    assert!(found.iter().any(|w| w.contains("deck at side lies below waterlines")), "{found:?}");
+    let found = more("keel", &|x| half_breadth(x, 0.75));
+    assert!(found.iter().any(|w| w.contains("keel lies above waterlines")), "{found:?}");
+    let found = more("height of sheer", &|_| 8.0);
+    assert!(!found.iter().any(|w| w.contains("W320")), "{found:?}");
+}
+
+#[test]
+fn a_lowest_waterline_without_values_shows_no_bottom() {
+    let text = matrix("x [m]", &distances(), &columns(|z| format!("{z} m")), metres);
+    // Half of the hull below 3 m is not given.
+    let without = |mark: &str| {
+        let blank = |row: &str| {
+            let mut fields: Vec<&str> = row.split(',').collect();
+            (fields[1], fields[2], fields[3]) = (mark, mark, mark);
+            fields.join(",")
+        };
+        let rows = text.lines().enumerate().map(|(k, row)| if k == 0 { row.to_owned() } else { blank(row) } + "\n");
+        warnings(&rows.collect::<String>(), "")
+    };
+    for mark in ["", "-"] {
+        let found = without(mark);
+        assert!(found.iter().any(|w| w.contains("W315")), "{mark}: {found:?}");
+    }
+}
+
+#[test]
+fn breadths_that_may_be_full_and_units_that_nobody_states_are_warned_of() {
+    let double = |y: f64| format!("{:.3}", 2.0 * y);
+    let table = matrix("x [m]", &distances(), &columns(|z| format!("{z} m")), double);
+    for title in ["Breadths (m)\n", "Widths at waterlines\n"] {
+        let found = warnings(&format!("{title}{table}"), "");
+        assert!(found.iter().any(|w| w.contains("half or full")), "{title}: {found:?}");
+    }
+    let centimetres =
+        matrix("x", &distances(), &columns(|z| format!("{}", 100.0 * z)), |y| format!("{:.1}", 100.0 * y));
+    let found = warnings(&centimetres, "");
+    assert!(found.iter().any(|w| w.contains("no unit is declared") && w.contains("--input-unit")), "{found:?}");
+}
+
+#[test]
+fn heights_that_count_downward_are_refused() {
+    let text = matrix("x \\ depth below DWL [m]", &distances(), &columns(|z| z.to_string()), metres);
+    let list = read(&text, "").unwrap_err();
+    assert!(list.iter().any(|p| p.message.contains("heights count downward")), "{list:?}");
+}
+
+#[test]
+fn waterlines_by_number_are_warned_of_whatever_names_them() {
+    let names = ["0", "0.5", "1", "2", "3", "4", "5"];
+    let columns: Vec<(String, f64)> = names.iter().zip(HEIGHTS).map(|(name, z)| ((*name).to_owned(), z)).collect();
+    let turned = matrix("x \\ WL", &distances(), &columns, metres);
+    let found = warnings(&turned, "[table]\nunits = \"m\"\n");
+    assert!(
+        found.iter().any(|w| w.contains("waterlines are numbered")) || found.iter().all(|w| !w.contains("W320")),
+        "{found:?}"
+    );
+    let found = warnings(&turned, "");
+    assert!(found.iter().any(|w| w.contains("waterlines are numbered")), "{found:?}");
+}
+
+#[test]
+fn points_may_be_in_feet_inches_and_eighths_and_have_marks() {
+    let of = |cell: &dyn Fn(f64) -> String, mark: &str| {
+        let mut text = String::from("x,y,z\n");
+        for k in 0..21 {
+            let x = 5.0 * f64::from(k);
+            for z in HEIGHTS {
+                let y = half_breadth(x, z);
+                let mark = if (z - 3.0).abs() < 1e-9 { mark } else { "" };
+                writeln!(text, "{},{}{mark},{}", cell(x), cell(y), cell(z)).unwrap();
+            }
+        }
+        read(&text, "[table]\nunits = \"m\"\n").unwrap_or_else(|list| panic!("{}", list[0])).table
+    };
+    let feet = |length: f64| loftsman::units::Notation::FeetInchesEighths.write(length);
+    let (metric, imperial) = (of(&metres, "K"), of(&feet, ""));
+    assert_eq!(metric.stations.len(), imperial.stations.len());
+    for (a, b) in metric.stations.iter().zip(&imperial.stations) {
+        assert!((a.station.x - b.station.x).abs() < 2e-3);
+        for (p, q) in a.outlines.iter().flatten().zip(b.outlines.iter().flatten()) {
+            assert!((p.y - q.y).abs() < 2e-3 && (p.z - q.z).abs() < 2e-3);
+        }
+    }
+    let marked = metric.stations[10].outlines.iter().flatten().filter(|point| point.marks.knuckle).count();
+    assert_eq!(marked, 1);
 }

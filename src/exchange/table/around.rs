@@ -1,6 +1,7 @@
 //! What stands around a table of offsets says about it: its name, main dimensions, units, and full breadths.
 
-use super::header::{Corner, axis_of, plain_number, unit_of};
+use super::header::{Corner, axis_of, counts_down, plain_number, side_of, unit_of};
+use super::long::{HALF_OR_FULL, half_taken};
 use super::pieces::{Piece, Pieces};
 use super::problem::{FilePosition, Problems};
 use super::ratio::slot;
@@ -35,6 +36,31 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
         problems.warning("W320", text.place(), message, "Give breadths = \"half\" in the conventions if they are not");
         settings.full = Some(true);
     }
+    let corner = heads.and_then(|row| row.first());
+    if let Some(text) = corner.filter(|text| counts_down(text.trimmed())) {
+        problems.error("E311", text, "heights count downward, and are not read so".to_owned(), UPWARD);
+    }
+    for text in texts().filter(|text| text.row > 0 && !text.text.starts_with('#')) {
+        settings.prose(text.trimmed(), problems);
+    }
+    if let Some(text) = texts().chain(corner).find(|text| says_breadths(&text.text)).filter(|_| settings.full.is_none())
+    {
+        problems.warning("W320", text.place(), half_taken(text.trimmed()), HALF_OR_FULL);
+    }
+}
+
+/// What is to be done about heights that count downward.
+pub(super) const UPWARD: &str = "Give heights above the base line";
+
+/// Whether words say that numbers are breadths, and not whether half or full ones.
+fn says_breadths(text: &str) -> bool {
+    let lower = text.to_lowercase().replace(['-', '_'], " ");
+    let mut words = lower.split(|c: char| !c.is_alphabetic());
+    let says = |word: &str| matches!(word, "breadth" | "breadths" | "beam" | "beams" | "width" | "widths");
+    // `B`, `breadth moulded` and `beam 12 m` are dimensions.
+    let has_number = lower.bytes().any(|b| b.is_ascii_digit());
+    let is_dimension = has_number || lower.contains(['=', ':']) || lower.contains("mould") || lower.contains("mold");
+    !lower.contains("half") && !is_dimension && side_of(text).is_none() && words.any(says)
 }
 
 /// The unit of half-breadths where a header states it apart from that of the positions: `x [m]; half-breadths in mm`.
@@ -74,6 +100,8 @@ fn unit_of_text(text: &str) -> Option<Notation> {
 fn dimensions(pieces: &Pieces, settings: &mut Settings, problems: &mut Problems) {
     for (key, value) in &pieces.pairs {
         let bare = key.text.split(['[', '(', '=', ':']).next().unwrap_or_default();
+        let text = format!("{} {}", bare.trim(), value.trimmed());
+        settings.prose(&text, problems);
         let Some(slot) = slot(&mut settings.stated, bare) else { continue };
         let unit = unit_of(key.trimmed()).unwrap_or(Notation::Metres);
         let length = match plain_number(&value.text) {

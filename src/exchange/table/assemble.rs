@@ -4,7 +4,7 @@ use super::checks;
 use super::grid::MOST_LINES;
 use super::header::{Axis, Coordinate, Corner, Position, position};
 use super::matrix::{Block, MatrixRow};
-use super::numbering::origin;
+use super::numbering::{Breadths, origin};
 use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, Units, ends_from_midship, units};
 use super::settings::Settings;
@@ -240,7 +240,10 @@ pub(super) fn assemble(
     } else {
         Notation::Metres
     });
-    let origin = origin(settings, corner, &stations, half * rough.metres(y.largest), problems);
+    let end = |line: Option<&MatrixRow>| Size::of(line.into_iter().flat_map(|line| &line.cells), comma).largest;
+    let ends = [first.stations.first(), first.stations.last()].map(|line| end(line) / y.largest.max(f64::MIN_POSITIVE));
+    let breadths = Breadths { largest: half * rough.metres(y.largest), ends };
+    let origin = origin(settings, corner, &stations, breadths, problems);
     let sizes = [Size::of_positions(stations.iter()), y, Size::of_positions(heads.iter())];
     let units = units(settings, corner, sizes, origin.numbers, problems);
     let datum = ends_from_midship(origin.datum, settings, &stations, units.x, problems);
@@ -323,6 +326,9 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     Some(Placed { xs, across, station_order: station_order?, across_order: across_order? })
 }
 
+/// Fewer whole numbers among waterlines are no numbers where others have decimals.
+const LEAST_WHOLE: usize = 4;
+
 /// Whether the waterlines have numbers, as WL 0, WL 1/2, WL 1, WL 2, and nothing says how far apart they are. What is written
 /// with a decimal sign or with a unit is a height.
 fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool {
@@ -333,16 +339,22 @@ fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool 
     }
     let named = heads.iter().filter(|head| head.named).count();
     let by_corner = names_waterlines(block.corner.trimmed());
+    // Halves may be written with a decimal sign, whole numbers are not.
     let count = |(head, field): (&Position, &Field)| match head.place {
-        Coordinate::Number(number) => !is_decimal(field.trimmed()) && (4.0 * number).fract().abs() < 1e-9,
+        Coordinate::Number(number) => {
+            (4.0 * number).fract().abs() < 1e-9 && (!is_decimal(field.trimmed()) || number.fract().abs() > 1e-9)
+        }
         _ => false,
     };
-    heads.len() > 2 && (by_corner || 2 * named > heads.len()) && heads.iter().zip(&block.heads).all(count)
+    let whole = block.heads.iter().filter(|field| !is_decimal(field.trimmed())).count();
+    let named = by_corner || 2 * named > heads.len();
+    let mostly = whole == heads.len() || whole >= LEAST_WHOLE && 2 * whole > heads.len();
+    heads.len() > 2 && named && mostly && heads.iter().zip(&block.heads).all(count)
 }
 
 /// Whether a corner says of its columns that they are waterlines, and not heights.
 fn names_waterlines(corner: &str) -> bool {
-    let Some((_, after)) = corner.split_once(['\\', '/']) else { return false };
+    let after = corner.split_once(['\\', '/']).map_or(corner, |(_, after)| after);
     after
         .split(|c: char| !c.is_alphabetic())
         .any(|word| ["wl", "wls", "waterline", "waterlines"].contains(&word.to_lowercase().as_str()))

@@ -13,11 +13,11 @@
 //! at waterlines and of heights at buttocks belong to the sections as well. Chines and knuckles are knuckles; without
 //! waterlines and buttocks all lines between the lowest and the highest are, with straight panels between them.
 
-use super::around::says_full;
+use super::around::{UPWARD, says_full};
 use super::assemble::{TableReader, order};
-use super::header::{Axis, Corner, Position, axis_of, position};
+use super::header::{Axis, Corner, Position, axis_of, counts_down, position};
 use super::long::{HALF_OR_FULL, half_taken};
-use super::numbering::origin;
+use super::numbering::{Breadths, origin};
 use super::pieces::is_numeric;
 use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, ends_from_midship, units};
@@ -70,17 +70,21 @@ fn words(text: &str) -> Vec<String> {
 fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
     let mut group = None;
     let mut rest = Vec::new();
+    let mut has_origin = false;
     for word in words(text) {
         match word.as_str() {
-            "height" | "heights" | "hab" => group = group.or(Some(Group::Heights)),
+            "above" | "below" => has_origin = true,
+            // From where heights count.
+            "bl" | "dwl" | "lwl" | "wl" | "waterline" if has_origin => {}
+            "height" | "heights" | "ht" | "hts" | "hab" => group = group.or(Some(Group::Heights)),
             "half" | "hb" | "breadth" | "breadths" | "halfbreadth" | "halfbreadths" | "width" | "widths"
             | "halfwidth" | "halfwidths" => group = Some(Group::HalfBreadths),
             "diagonal" | "diagonals" | "diag" => group = Some(Group::Diagonals),
             "length" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
                 group = group.or(Some(Group::Positions));
             }
-            "of" | "full" | "whole" | "above" | "base" | "baseline" | "line" | "at" | "from" | "centreline"
-            | "centerline" | "c.l." | "cl" => {}
+            "of" | "full" | "whole" | "base" | "baseline" | "line" | "at" | "from" | "centreline" | "centerline"
+            | "c.l." | "cl" => {}
             _ => rest.push(word),
         }
     }
@@ -190,6 +194,13 @@ struct LinePoint {
     z: f64,
 }
 
+/// Refuses heights that count downward.
+fn refuse_downward(lines: &Lines<'_>, problems: &mut Problems) {
+    if let Some(label) = lines.labels.iter().find(|label| counts_down(label.trimmed())) {
+        problems.error("E311", *label, "heights count downward, and are not read so".to_owned(), UPWARD);
+    }
+}
+
 /// The table of a file of lines.
 pub(super) fn read(
     rows: &[Vec<Field>],
@@ -199,6 +210,7 @@ pub(super) fn read(
 ) -> Option<OffsetTable> {
     let rows = settled(rows);
     let lines = lines(&rows)?;
+    refuse_downward(&lines, problems);
     let full = breadths(&lines, settings, problems);
     let settings = &Settings { full: Some(full), ..settings.clone() };
     let positions_row = lines.rows.iter().find(|row| row.group == Some(Group::Positions));
@@ -210,7 +222,8 @@ pub(super) fn read(
     let places: Vec<Position> = heads.iter().map(|(_, position)| *position).collect();
     let corner =
         Corner { rows: Some(if positions_row.is_some() { Axis::X } else { Axis::Station }), ..Corner::default() };
-    let origin = origin(settings, corner, &places, y.largest, problems);
+    let breadths = Breadths { largest: y.largest, ..Breadths::default() };
+    let origin = origin(settings, corner, &places, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(places.iter()), y, z], origin.numbers, problems);
     let datum = ends_from_midship(origin.datum, settings, &places, units.x, problems);
     let form = TableForm { origin: datum, layout: TableLayout::Other, ..form };

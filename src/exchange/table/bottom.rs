@@ -24,8 +24,11 @@ pub(super) fn unknown(table: &OffsetTable, problems: &mut Problems) {
         return below_points(table, problems);
     }
     let remedy = "Give a row or a column 'keel' with its heights and one 'flat of bottom', or the lowest waterlines";
-    let Some(lowest) = table.waterlines.first().copied() else { return };
-    let areas = areas(table);
+    // A waterline without any value shows nothing.
+    let is_given = |j: usize| table.stations.iter().any(|station| station.half_breadth(j).is_some());
+    let Some(first) = (0..table.waterlines.len()).find(|j| is_given(*j)) else { return };
+    let lowest = table.waterlines[first];
+    let areas = &areas(table)[first..];
     let greatest = areas.iter().map(|[_, area]| *area).fold(0.0, f64::max);
     if areas[0][1] <= WATERPLANE * greatest {
         return;
@@ -38,10 +41,10 @@ pub(super) fn unknown(table: &OffsetTable, problems: &mut Problems) {
         return problems.warning("W315", FilePosition::FILE, message, remedy);
     }
     let draught = table.stated.draught.filter(|draught| *draught > lowest);
-    let above = volume(&areas, draught.unwrap_or(f64::INFINITY));
+    let above = volume(areas, draught.unwrap_or(f64::INFINITY));
     let of = draught.map_or_else(|| "the volume".to_owned(), |draught| format!("the volume up to T {draught} m"));
     if table.stations.iter().any(has_keel) {
-        let below = 0.5 * to_keel(table, lowest);
+        let below = 0.5 * to_keel(table, first);
         if below > SHARE * (below + above) {
             let message = format!(
                 "between the keel and the lowest waterline, {lowest} m, the sections are not known: straight to the flat of bottom, where \
@@ -88,11 +91,12 @@ fn volume(areas: &[[f64; 2]], top: f64) -> f64 {
 }
 
 /// Half of what plumb sides have between the keel and the lowest waterline, beyond the flats of bottom.
-fn to_keel(table: &OffsetTable, lowest: f64) -> f64 {
+fn to_keel(table: &OffsetTable, first: usize) -> f64 {
+    let lowest = table.waterlines[first];
     let below = |station: &StationOffsets| {
         let depth = station.keel_height.map_or(0.0, |keel| (lowest - keel).max(0.0));
         let flat = station.flat_of_bottom.unwrap_or(0.0);
-        [station.station.x, depth * (station.half_breadth(0).unwrap_or(0.0) - flat).max(0.0)]
+        [station.station.x, depth * (station.half_breadth(first).unwrap_or(0.0) - flat).max(0.0)]
     };
     trapezoids(&table.stations.iter().map(below).collect::<Vec<_>>())
 }

@@ -221,6 +221,7 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
             "Give rows 'stern' and 'stem' below the half-breadths, or [endings]",
         );
     }
+    sides(table, problems);
     bottom::unknown(table, problems);
     ends::cut_off(table, problems);
     if let Some(highest) = table.closes_above() {
@@ -239,6 +240,28 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
             let message =
                 format!("only {} up to T {draught} m: volumes from this table are coarse", counted(below, "waterline"));
             problems.warning("W307", FilePosition::FILE, message, "");
+        }
+    }
+}
+
+/// Heights of the deck below waterlines with half-breadths, and of the keel above them, at most stations: they are something
+/// else, as half-breadths.
+fn sides(table: &OffsetTable, problems: &mut Problems) {
+    let has_breadth = |station: &StationOffsets, [low, high]: [f64; 2]| {
+        let cells = station.half_breadths.iter().zip(&table.waterlines);
+        cells.filter(|(_, z)| (low..high).contains(*z)).any(|(cell, _)| cell.value().is_some_and(|y| y > 0.0))
+    };
+    let above = |s: &StationOffsets| s.deck_height.map(|deck| has_breadth(s, [deck + SAME, f64::INFINITY]));
+    let below = |s: &StationOffsets| s.keel_height.map(|keel| has_breadth(s, [f64::NEG_INFINITY, keel - SAME]));
+    let count = |of: &dyn Fn(&StationOffsets) -> Option<bool>| {
+        let all: Vec<bool> = table.stations.iter().filter_map(of).collect();
+        (all.iter().filter(|wrong| **wrong).count(), all.len())
+    };
+    for ((wrong, all), what) in [(count(&above), "deck at side lies below"), (count(&below), "keel lies above")] {
+        if 2 * wrong > all {
+            let message = format!("at {wrong} of {all} stations the {what} waterlines that have half-breadths there");
+            let remedy = "Name the line for what its numbers are: these names are of heights above the base line";
+            problems.warning("W320", FilePosition::FILE, message, remedy);
         }
     }
 }

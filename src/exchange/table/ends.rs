@@ -1,6 +1,7 @@
 //! Ends of a hull that its stations do not reach.
 
 use super::problem::{FilePosition, Problems};
+use super::settings::metres;
 use crate::hull::{OffsetTable, StationOffsets};
 use crate::numeric::trapezoids;
 
@@ -24,7 +25,8 @@ pub(super) fn cut_off(table: &OffsetTable, problems: &mut Problems) {
         // Sterns end in transoms, bows hardly ever do.
         if !has(1) && last > BLUNT[0] * greatest && last < BLUNT[1] * greatest {
             let message = format!(
-                "the stations end at x = {fore} m with {:.0} % of the greatest section: the hull is cut off upright there",
+                "the stations end at x = {} m with {:.0} % of the greatest section: the hull is cut off upright there",
+                metres(fore),
                 100.0 * last / greatest
             );
             problems.warning("W317", FilePosition::FILE, message, REMEDY);
@@ -38,7 +40,8 @@ pub(super) fn cut_off(table: &OffsetTable, problems: &mut Problems) {
     ];
     for (word, x, beyond, _) in ends.into_iter().filter(|(_, _, beyond, ended)| !ended && *beyond > SHARE * volume) {
         let message = format!(
-            "the stations end at x = {x} m, and the hull {word} it is not known: cut off upright there, without about {:.1} % of the volume",
+            "the stations end at x = {} m, and the hull {word} it is not known: cut off upright there, without about {:.1} % of the volume",
+            metres(x),
             100.0 * beyond / (volume + beyond)
         );
         problems.warning("W317", FilePosition::FILE, message, REMEDY);

@@ -55,7 +55,7 @@ impl Position {
 }
 
 /// Whether a header names the base line: the waterline at height 0. Among buttocks `BL` is one of these.
-fn is_base_line(text: &str) -> bool {
+pub(super) fn is_base_line(text: &str) -> bool {
     let name = words(text).join(" ");
     let known = matches!(
         name.as_str(),
@@ -105,7 +105,7 @@ pub(super) fn unit_of(text: &str) -> Option<Notation> {
 }
 
 /// Names of side columns and rows; the first of each kind is the one that we write.
-pub(super) const SIDES: [(&str, SideKind); 46] = [
+pub(super) const SIDES: [(&str, SideKind); 50] = [
     ("keel", SideKind::Keel),
     ("z keel", SideKind::Keel),
     ("keel height", SideKind::Keel),
@@ -126,6 +126,10 @@ pub(super) const SIDES: [(&str, SideKind); 46] = [
     ("deck height", SideKind::DeckHeight),
     ("height of deck", SideKind::DeckHeight),
     ("sheer", SideKind::DeckHeight),
+    ("sheer height", SideKind::DeckHeight),
+    ("height of sheer", SideKind::DeckHeight),
+    ("deck at side height", SideKind::DeckHeight),
+    ("height of deck at side", SideKind::DeckHeight),
     ("z max", SideKind::DeckHeight),
     ("half breadth at deck", SideKind::DeckHalfBreadth),
     ("y deck", SideKind::DeckHalfBreadth),
@@ -176,6 +180,18 @@ pub(super) fn side_name(kind: SideKind) -> &'static str {
     SIDES.iter().find(|(_, k)| *k == kind).map_or("name", |(name, _)| name)
 }
 
+/// Whether words say that heights count downward: `depth below DWL`, `z down`. What stands in brackets does not count.
+pub(super) fn counts_down(text: &str) -> bool {
+    let bare: String = text.split(['(', '[']).next().unwrap_or_default().to_owned();
+    let words = words(&bare);
+    let is_height = |word: &str| matches!(word, "depth" | "depths" | "height" | "heights" | "z");
+    let is_down = |word: &str| matches!(word, "below" | "under" | "beneath" | "down" | "downward" | "downwards");
+    // `x \ below deck` too: below behind the bar.
+    let behind = bare.split_once(['\\', '/']).and_then(|(_, after)| after.split_whitespace().next());
+    words.windows(2).any(|pair| is_height(&pair[0]) && is_down(&pair[1]))
+        || behind.is_some_and(|word| is_down(&word.to_lowercase()))
+}
+
 /// What the field says in which the headers cross.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Corner {
@@ -184,6 +200,8 @@ pub(super) struct Corner {
     pub(super) unit: Option<Notation>,
     /// Positions from midship or from FP, as the words say.
     pub(super) from: Option<From>,
+    /// Whether distances from midship are positive aft.
+    pub(super) aftward: bool,
     /// Spaces in L_PP, as in `station_20_over_Lpp`.
     pub(super) spaces: Option<f64>,
 }
@@ -197,6 +215,15 @@ pub(super) enum From {
 }
 
 impl From {
+    /// Its name in messages.
+    pub(super) fn as_str(self) -> &'static str {
+        match self {
+            Self::AftPerpendicular => "AP",
+            Self::ForePerpendicular => "FP",
+            Self::Midship => "midship",
+        }
+    }
+
     pub(super) fn of(text: &str) -> Option<Self> {
         words(&text.replace('.', "")).iter().find_map(|word| match word.as_str() {
             "ap" => Some(Self::AftPerpendicular),
@@ -232,7 +259,14 @@ impl Corner {
             .contains("lpp")
             .then(|| lower.split(|c: char| !c.is_ascii_digit()).find(|d| !d.is_empty())?.parse().ok())
             .flatten();
-        Self { rows, columns, unit, from: From::of(text), spaces: spaces.filter(|&n: &f64| n > 0.0) }
+        // `Distance from stem`, and `x aft`.
+        let first = |after: &str| words(after).into_iter().find(|word| word != "the");
+        let behind = lower.split_once(" from ").and_then(|(_, after)| From::end_of(&first(after)?));
+        let aft = rows.is_some_and(Axis::is_station) && words(bare).last().is_some_and(|word| word == "aft");
+        let from = From::of(text).or(behind).or(aft.then_some(From::ForePerpendicular));
+        let signs = ["+ aft", "+aft", "aft +", "positive aft", "aft positive", "+ve aft"];
+        let aftward = signs.iter().any(|words| lower.contains(words));
+        Self { rows, columns, unit, from, aftward, spaces: spaces.filter(|&n: &f64| n > 0.0) }
     }
 }
 

@@ -340,8 +340,9 @@ fn waterlines(points: &mut [Point], columns: &Columns, settings: &Settings, prob
         return;
     }
     let Some((values, steps)) = steps(points.iter().map(|point| &point.z), false) else { return };
-    let follow =
-        steps.iter().all(|step| (step - 1.0).abs() < 1e-9) && values.len() > 2 && values[0].fract().abs() < 1e-9;
+    let by_one = steps.iter().filter(|step| (*step - 1.0).abs() < 1e-9).count();
+    let are_quarters = values.iter().all(|value| (4.0 * value).fract().abs() < 1e-9);
+    let follow = 2 * by_one > steps.len() && are_quarters && values.len() > 2 && values[0].fract().abs() < 1e-9;
     if follow && named.unit.or(settings.z_units).is_none() {
         let message = format!(
             "waterlines {} to {} may be numbers, and their spacing is not known: taken as heights",

@@ -4,7 +4,7 @@
 //! from the conventions, else from the words of the headers, else from the numbers: a hull tapers to both of its ends,
 //! and does not taper upwards.
 
-use super::header::{Axis, Corner, axis_of, is_orderly, plain_number, side_of};
+use super::header::{Axis, Corner, axis_of, is_base_line, is_orderly, plain_number, side_of};
 use super::pieces::Piece;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::Settings;
@@ -268,7 +268,8 @@ fn is_positions(field: &Field, stations: bool) -> bool {
 
 /// Whether more headers name buttocks than waterlines. The base line is none of these.
 fn are_buttocks<'f>(heads: impl Iterator<Item = &'f Field>) -> bool {
-    let axes = heads.filter(|head| side_of(&head.text).is_none()).filter_map(|head| axis_of(&head.text));
+    let is_line = |head: &&Field| side_of(&head.text).is_none() && !is_base_line(head.trimmed());
+    let axes = heads.filter(is_line).filter_map(|head| axis_of(&head.text));
     let (buttocks, others): (Vec<Axis>, Vec<Axis>) = axes.partition(|axis| *axis == Axis::Buttock);
     buttocks.len() > others.len()
 }

@@ -11,6 +11,14 @@ const USUAL_SPACES: [f64; 2] = [20.0, 10.0];
 /// A distance from the last station to a perpendicular of so many usual ones shows that the stations are numbered.
 const JUMP: f64 = 3.0;
 
+/// The half-breadth of a full end, over the largest, at least, and that of a fine one, over that of the full, at most.
+/// Where no other is larger, the hull goes on there.
+const FULL_END: std::ops::RangeInclusive<f64> = 0.2..=0.97;
+const FINE_END: f64 = 0.25;
+
+/// Hulls whose length would be less than this many breadths may have numbers for stations.
+const SHORT: f64 = 4.0;
+
 /// The positions of the stations of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Origin {
@@ -19,6 +27,24 @@ pub(super) struct Origin {
     pub(super) numbers: bool,
     /// Distance between perpendiculars by the numbers of these \[m\].
     pub(super) length: Option<f64>,
+}
+
+/// Half-breadths that tell stations from lengths, and bow from stern.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Breadths {
+    /// The largest \[m\].
+    pub(super) largest: f64,
+    /// The largest of the first station, and of the last, over the largest of all.
+    pub(super) ends: [f64; 2],
+}
+
+impl Breadths {
+    /// Whether the first station is at the fuller end, where one end is full and the other fine.
+    fn begins_full(&self) -> Option<bool> {
+        let [first, last] = self.ends;
+        let is_full = |full: f64, fine: f64| FULL_END.contains(&full) && fine <= FINE_END * full;
+        if is_full(first, last) { Some(true) } else { is_full(last, first).then_some(false) }
+    }
 }
 
 /// The plain number of a position.
@@ -101,7 +127,7 @@ pub(super) fn origin(
     settings: &Settings,
     corner: Corner,
     heads: &[Position],
-    largest_half_breadth: f64,
+    breadths: Breadths,
     problems: &mut Problems,
 ) -> Origin {
     let length = settings.stated.length_between_perpendiculars;
@@ -119,31 +145,70 @@ pub(super) fn origin(
             // stations.
             _ => {
                 let length = corner.unit.map_or(high - low, |unit| unit.metres(high - low));
-                numbers.len() > 1 && length < 2.0 * largest_half_breadth
+                numbers.len() > 1 && length < 2.0 * breadths.largest
             }
         };
         let are_numbers = are_numbers || shows_numbers(&heads, length);
         StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers: are_numbers }
     });
+    let is_stated = settings.stations.is_some() || settings.units.or(settings.x_units).or(corner.unit).is_some();
+    let is_short = high - low < 2.0 * SHORT * breadths.largest;
+    if !scale.numbers && !is_stated && says != Some(Axis::X) && is_short && counts(&numbers, [low, high]) {
+        let message = format!(
+            "stations {low} to {high} are taken as distances, and may be numbers: the hull is {} long and {} broad",
+            high - low,
+            2.0 * breadths.largest
+        );
+        let remedy = "Give stations = \"from AP\", or \"numbers from FP\" with Lpp, in the conventions";
+        problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
     if numbers.is_empty() || !scale.numbers && scale.from == From::AftPerpendicular {
         return Origin { datum: StationDatum::Lengths, numbers: scale.numbers, length: None };
     }
     if !scale.numbers {
-        return Origin { datum: distances(scale.from, length, problems), numbers: false, length: None };
+        return Origin { datum: distances(scale.from, corner.aftward, length, problems), numbers: false, length: None };
     }
     let [aft, fore] = [From::AftPerpendicular, From::ForePerpendicular].map(|end| number_of(&heads, end));
     let between = aft.zip(fore).map(|(aft, fore)| (fore - aft).abs()).filter(|spaces| *spaces > 0.0);
     let spacing = spacing(settings, corner, (between, [low, high]), problems);
-    let by_ends = counted_from(aft, fore, [low, high]).filter(|_| settings.stations.is_none() && corner.from.is_none());
-    if settings.stations.is_none() && corner.from.is_none() && by_ends.is_none() {
-        let message = "stations are numbered, and nothing says from which end: 0 is taken as AP. From FP the hull is turned about, and \
-                       LCB changes its sign";
+    let is_open = settings.stations.is_none() && corner.from.is_none();
+    let by_ends = counted_from(aft, fore, [low, high]).filter(|_| is_open);
+    let rises = numbers.first() < numbers.last();
+    let by_breadths = breadths
+        .begins_full()
+        .filter(|_| is_open && by_ends.is_none())
+        .map(|begins_full| if begins_full == rises { From::AftPerpendicular } else { From::ForePerpendicular });
+    if is_open && by_ends.is_none() {
+        let end = if by_breadths == Some(From::ForePerpendicular) { "FP" } else { "AP" };
+        let why = by_breadths.map_or("", |_| ", because the fuller end is the stern");
+        let message = format!(
+            "stations are numbered, and nothing says from which end: {low} is taken as {end}{why}. From the other end the hull is \
+             turned about, and LCB changes its sign"
+        );
         let remedy = "Give stations = \"numbers from AP\" or \"numbers from FP\" in the conventions";
-        problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);
+        problems.warning("W320", FilePosition::FILE, message, remedy);
     }
+    let by_ends = by_ends.or(by_breadths);
+    let from = by_ends.unwrap_or(scale.from);
+    // Numbers may begin with 1, not with 0.
+    let first = begins_with_one([low, high]).then_some(1.0);
+    if first.is_some() && !is_open && aft.or(fore).is_none() {
+        let message = format!("stations are numbered 1 to {high}: 1 is taken as {}", from.as_str());
+        problems.warning(
+            "W320",
+            FilePosition::FILE,
+            message,
+            "Give 0 for the station at the perpendicular if it is not",
+        );
+    }
+    let (aft, fore) = match from {
+        From::AftPerpendicular => (aft.or(first), fore),
+        From::ForePerpendicular => (aft, fore.or(first)),
+        From::Midship => (aft, fore),
+    };
     let spaces = settings.spaces.or(corner.spaces).or(between).or(usual([low, high]));
     let length = length.or(spaces.filter(|_| between.is_some()).map(|spaces| spaces * spacing));
-    let datum = match by_ends.unwrap_or(scale.from) {
+    let datum = match from {
         From::ForePerpendicular => {
             // Without L_PP the last number is AP.
             let known = length.or(spaces.map(|n| n * spacing)).unwrap_or(high * spacing);
@@ -158,9 +223,14 @@ pub(super) fn origin(
 }
 
 /// Distances that do not count from AP.
-fn distances(from: From, length: Option<f64>, problems: &mut Problems) -> StationDatum {
+fn distances(from: From, aftward: bool, length: Option<f64>, problems: &mut Problems) -> StationDatum {
     let (offset, sign) = match (from, length) {
-        (From::Midship, Some(length)) => (0.5 * length, 1.0),
+        (From::Midship, Some(length)) => (0.5 * length, if aftward { -1.0 } else { 1.0 }),
+        (From::Midship, None) if aftward => {
+            let message = "distances count aft from midship, and L_PP is not known".to_owned();
+            problems.error("E311", FilePosition::FILE, message, "Give Lpp in the conventions");
+            (0.0, 1.0)
+        }
         (From::ForePerpendicular, Some(length)) => (length, -1.0),
         (From::ForePerpendicular, None) => {
             let message =
@@ -172,7 +242,7 @@ fn distances(from: From, length: Option<f64>, problems: &mut Problems) -> Statio
         _ => (0.0, 1.0),
     };
     if length.is_some() {
-        let place = if sign > 0.0 { "midship" } else { "FP" };
+        let place = if from == From::Midship { "midship" } else { "FP" };
         problems.note(format!("distances count from {place}, which is {offset} m forward of AP"));
     }
     StationDatum::Shifted { offset, sign }
@@ -182,6 +252,22 @@ fn distances(from: From, length: Option<f64>, problems: &mut Problems) -> Statio
 fn usual([low, high]: [f64; 2]) -> Option<f64> {
     let is = |a: f64, b: f64| (a - b).abs() < 1e-9;
     USUAL_SPACES.into_iter().find(|&n| high >= n - 1e-9 && high < n + 2.0 || is(high, n - 1.0) && is(low, 1.0))
+}
+
+/// Whether stations are numbered from 1 at one perpendicular to one more than the usual spaces at the other.
+fn begins_with_one([low, high]: [f64; 2]) -> bool {
+    let is = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    is(low, 1.0) && USUAL_SPACES.into_iter().any(|n| is(high, n + 1.0))
+}
+
+/// Whether positions are such as numbers of stations are: quarters, mostly one apart, up to a usual number of spaces.
+fn counts(numbers: &[f64], ends: [f64; 2]) -> bool {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let mut steps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let usual_step = steps.get(steps.len() / 2).is_some_and(|step| (step - 1.0).abs() < 1e-9);
+    usual_step && usual(ends).is_some() && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9)
 }
 
 /// The distance from one number to the next \[m\]; `between` are the spaces between AP and FP, where both are named.

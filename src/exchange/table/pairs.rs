@@ -5,7 +5,7 @@
 
 use super::assemble::TableReader;
 use super::header::{Corner, Position, position};
-use super::numbering::origin;
+use super::numbering::{Breadths, origin};
 use super::problem::{Field, Problems};
 use super::scale::{Size, ends_from_midship, units};
 use super::settings::Settings;
@@ -75,7 +75,8 @@ pub(super) fn read(
     let z = Size::of(points.iter().flatten().map(|(_, z)| z), false);
     let positions: Vec<Position> = heads.iter().map(|(_, p)| *p).collect();
     let corner = Corner { rows: Some(super::header::Axis::Station), ..Corner::default() };
-    let origin = origin(settings, corner, &positions, y.largest, problems);
+    let breadths = Breadths { largest: y.largest, ..Breadths::default() };
+    let origin = origin(settings, corner, &positions, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], origin.numbers, problems);
     let datum = ends_from_midship(origin.datum, settings, &positions, units.x, problems);
     let form = TableForm { origin: datum, layout: TableLayout::Pairs, ..form };

@@ -9,20 +9,24 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::columns::{self, Column};
-use super::fields::{Separator, TextLine, finish, lines};
+use super::fields::{Separator, TextLine, finish, lines, plain_number};
 use super::header::From;
 use super::outline::{point, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
 use super::ratio::separator;
-use super::scale::LARGEST_HALF_BREADTH;
+use super::scale::{LARGEST_HALF_BREADTH, UNIT};
 use super::sections::{Body, Section, XOrigin, refuse_negative, table};
 use super::settings::Settings;
 use super::sides::{Sides, sides};
 use super::{ReadTable, TableProblem};
-use crate::hull::OutlinePoint;
+use crate::hull::{Marks, OutlinePoint};
+use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
 
 /// Points of one section are at one x when they are so near \[m\].
 const SAME_X: f64 = 1e-6;
+
+/// Decimals of metres that feet, inches and eighths are as fine as.
+const EIGHTHS: usize = 3;
 
 /// What a column of points holds, metres in its unit, and whether x counts from AP; none for any other column.
 fn column(name: &str) -> Option<(Column, f64, bool)> {
@@ -74,6 +78,17 @@ struct PointRow<'a> {
     order: f64,
     point: OutlinePoint,
     place: FilePosition,
+    /// Which of x, y and z state no unit themselves.
+    plain: [bool; 3],
+}
+
+impl PointRow<'_> {
+    /// Brings what states no unit to metres.
+    fn scale(&mut self, factors: [f64; 3]) {
+        let [x, y, z] = [0, 1, 2].map(|axis: usize| if self.plain[axis] { factors[axis] } else { 1.0 });
+        self.x *= x;
+        (self.point.y, self.point.z) = (self.point.y * y, self.point.z * z);
+    }
 }
 
 /// Reads sections given by points.
@@ -90,6 +105,14 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
 /// Every problem of the file.
 pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
+    let mut settings = settings.clone();
+    let of_line = |(k, line): (usize, &str)| Some((k + 1, line.trim_start().strip_prefix('#')?.trim().to_owned()));
+    // What stands beside the file stands over what stands in it.
+    let mut own = Settings::default();
+    own.comments(&text.lines().enumerate().filter_map(of_line).collect::<Vec<_>>(), &mut problems);
+    settings.stated = settings.stated.over(&own.stated);
+    settings.units = settings.units.or(own.units);
+    settings.stations = settings.stations.or(own.stations);
     let mark = head(text).map_or(',', |(mark, _)| mark);
     let pointed = pointed(text, mark);
     let text = pointed.as_ref();
@@ -141,29 +164,36 @@ pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<R
         }
     }
     let stated = [settings.x_units.or(settings.units), settings.units, settings.z_units.or(settings.units)];
-    if !is_declared && stated.iter().any(Option::is_some) {
-        let [x, y, z] = stated.map(|unit| unit.map_or(1.0, |unit| unit.metres(1.0)));
-        for row in &mut rows {
-            row.x *= x;
-            (row.point.y, row.point.z) = (row.point.y * y, row.point.z * z);
-        }
+    let has_eighths = rows.iter().any(|row| row.plain.contains(&false));
+    if !is_declared && (has_eighths || stated.iter().any(Option::is_some)) {
+        // Plain numbers among feet, inches and eighths are feet.
+        let usual = if has_eighths { Notation::Feet } else { Notation::Metres };
+        let factors = stated.map(|unit| unit.unwrap_or(usual).metres(1.0));
+        rows.iter_mut().for_each(|row| row.scale(factors));
     }
-    let is_declared = is_declared || stated.iter().any(Option::is_some);
-    if settings.stations.is_some_and(|scale| scale.from == From::AftPerpendicular) {
-        origin = XOrigin::AfterPerpendicular;
+    let is_declared = is_declared || has_eighths || stated.iter().any(Option::is_some);
+    match settings.stations.map(|scale| scale.from) {
+        Some(From::AftPerpendicular) => origin = XOrigin::AfterPerpendicular,
+        // Distances from FP count aft, unless they are negative.
+        Some(From::ForePerpendicular) if rows.iter().map(|row| row.x).sum::<f64>() > 0.0 => {
+            rows.iter_mut().for_each(|row| row.x = 0.0 - row.x);
+        }
+        _ => {}
     }
     let mut unit = columns.iter().find(|(kind, _, _)| *kind == Column::Y).map_or(1.0, |(_, _, unit)| *unit);
     if !is_declared && are_millimetres(&rows) {
-        problems.note("no unit is declared; the points are taken as millimetres".to_owned());
+        let message = "no unit is declared; the points are taken as millimetres".to_owned();
+        problems.warning("W320", FilePosition::FILE, message, UNIT);
         unit = 1e-3;
-        for row in &mut rows {
-            row.x *= unit;
-            (row.point.y, row.point.z) = (row.point.y * unit, row.point.z * unit);
-        }
+        rows.iter_mut().for_each(|row| row.scale([unit; 3]));
+    } else if !is_declared {
+        let message = "no unit is declared; the points are taken as metres".to_owned();
+        problems.warning("W320", FilePosition::FILE, message, UNIT);
     }
     let sections = group(&rows, &mut problems);
     let stated = settings.stated;
-    table(Body { name: String::new(), stated, sections, origin, unit }, problems)
+    let name = own.name.unwrap_or_default();
+    table(Body { name, stated, sections, origin, unit }, problems)
 }
 
 fn row<'a>(
@@ -186,8 +216,27 @@ fn row<'a>(
         let (_, index, unit) = columns.iter().find(|(other, _, _)| *other == kind)?;
         Some((*line.fields.get(*index)?, *unit))
     };
+    let mut marks = Marks::default();
+    let mut plain = [true; 3];
     let mut length = |kind: Column, what: &str| -> Option<f64> {
         let (field, unit) = field(kind)?;
+        // What is no plain number may be feet, inches and eighths, or have a mark behind it.
+        let rules = CellRules { unit: Notation::Metres, decimal_comma: false };
+        let reading = parse_cell(field.text, rules).ok().filter(|_| plain_number(field.text).is_none());
+        if let Some(CellReading { entry: CellEntry::Length(value), writing, .. }) = reading {
+            let CellReading { doubtful, locked, knuckle, tangent, .. } = reading?;
+            if kind == Column::Y {
+                marks = Marks { doubtful, locked, knuckle, tangent };
+            }
+            if let CellWriting::Plain { decimals } = writing {
+                problems.decimals = problems.decimals.max(if kind == Column::X { 0 } else { decimals });
+                return Some(value * unit);
+            }
+            problems.decimals = problems.decimals.max(EIGHTHS);
+            let axis = [Column::X, Column::Y, Column::Z].iter().position(|axis| *axis == kind);
+            axis.into_iter().for_each(|axis| plain[axis] = false);
+            return Some(value);
+        }
         // Digits of x say nothing of those of the offsets.
         let value = if kind == Column::X { problems.number(field, what) } else { problems.length(field, what) };
         Some(value? * unit)
@@ -200,7 +249,8 @@ fn row<'a>(
     let (branch, order) = (number(Column::Loop, "the loop"), number(Column::Point, "the point"));
     let station = field(Column::Station).map(|(field, _)| field.text);
     let place = FilePosition::row(line.row);
-    Some(PointRow { station, x: x?, branch: branch?, order: order?, point: point(y?, z?), place })
+    let point = OutlinePoint { marks, ..point(y?, z?) };
+    Some(PointRow { station, x: x?, branch: branch?, order: order?, point, place, plain })
 }
 
 /// Whether points without a unit are beyond any ship in metres.

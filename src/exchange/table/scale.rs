@@ -86,10 +86,10 @@ pub(super) fn units(
         if y.eighths > 0 {
             Notation::FeetInchesEighths
         } else if y.largest > LARGEST_HALF_BREADTH || beyond(y, z, x, stations_are_numbers) {
-            problems.note(format!("no unit is declared; half-breadths up to {} are taken as millimetres", y.largest));
+            undeclared(y.largest, "millimetres", problems);
             Notation::Millimetres
         } else {
-            problems.note(format!("no unit is declared; half-breadths up to {} are taken as metres", y.largest));
+            undeclared(y.largest, "metres", problems);
             Notation::Metres
         }
     });
@@ -103,12 +103,14 @@ pub(super) fn units(
                 Some(_) => !both,
             };
             if same == Notation::Millimetres && size.largest <= largest && size.plain > 0 && metres {
-                problems
-                    .note(format!("half-breadths are millimetres; {what}s up to {} are taken as metres", size.largest));
+                let message =
+                    format!("half-breadths are millimetres; {what}s up to {} are taken as metres", size.largest);
+                problems.warning("W320", FilePosition::FILE, message, OTHER_UNIT);
                 Notation::Metres
             } else if declared.is_none() && same == Notation::Metres && size.largest > largest {
-                problems
-                    .note(format!("half-breadths are metres; {what}s up to {} are taken as millimetres", size.largest));
+                let message =
+                    format!("half-breadths are metres; {what}s up to {} are taken as millimetres", size.largest);
+                problems.warning("W320", FilePosition::FILE, message, OTHER_UNIT);
                 Notation::Millimetres
             } else {
                 same
@@ -126,6 +128,18 @@ pub(super) fn units(
     };
     Units { x, y: offsets, z }
 }
+
+/// Says that nothing states the unit of half-breadths.
+fn undeclared(largest: f64, unit: &str, problems: &mut Problems) {
+    let message = format!("no unit is declared; half-breadths up to {largest} are taken as {unit}");
+    problems.warning("W320", FilePosition::FILE, message, UNIT);
+}
+
+/// What settles that of positions.
+const OTHER_UNIT: &str = "Give x_units and z_units in the conventions";
+
+/// What settles the unit.
+pub(super) const UNIT: &str = "Give units in the conventions, as units = \"m\", or --input-unit";
 
 /// Whether positions up to `largest` are nearer to `usual` half-breadths \[m\] as metres than as millimetres.
 fn nearer_in_metres(largest: f64, half_breadth: f64, usual: f64) -> bool {

@@ -49,7 +49,7 @@
 //! a comment, but for what it says of stations: `# Stations 3 ft apart`, `# Stations numbered from FP`.
 
 use super::header::From;
-use super::problem::{Field, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use crate::hull::{FeatureLine, Rows, StatedParticulars, TableLayout, TransomPlane};
 use crate::units::{Notation, parse_length};
 
@@ -89,9 +89,20 @@ pub(super) struct Settings {
     pub(super) frame: BodyFrame,
 }
 
+/// A part of a body that is chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum PartChoice {
+    /// A shell by its number, from 1.
+    Number(usize),
+    /// A group, a solid or a layer.
+    Name(String),
+}
+
 /// How a body lies in its file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct BodyFrame {
+    /// The parts that count; none: all.
+    pub(super) parts: Option<Vec<PartChoice>>,
     /// The file's axis, 0 to 2, and its sign, for x, y and z.
     pub(super) axes: Option<[(usize, f64); 3]>,
     /// The axis that points up, with its sign.
@@ -107,7 +118,7 @@ pub(super) struct BodyFrame {
 }
 
 /// Keys of `[table]`.
-pub(super) const KEYS: [&str; 26] = [
+pub(super) const KEYS: [&str; 27] = [
     "name",
     "units",
     "x_units",
@@ -130,6 +141,7 @@ pub(super) const KEYS: [&str; 26] = [
     "axes",
     "up",
     "body",
+    "parts",
     "scale",
     "x_origin",
     "z_origin",
@@ -197,30 +209,25 @@ impl Settings {
         }
     }
 
-    /// Takes what a sentence says of stations: "Stations 3 ft apart", "numbered from the forward perpendicular".
-    fn prose(&mut self, comment: &str, problems: &mut Problems) {
-        let lower = comment.to_lowercase();
-        if !["station", "frame", "ordinate"].iter().any(|word| lower.contains(word)) {
-            return;
+    /// Takes what a sentence says of stations: "Stations 3 ft apart", "Station spacing: 5 m", "Stations are numbered from the
+    /// forward perpendicular", "station 0 is at FP", "x from FP". It says so.
+    pub(super) fn prose(&mut self, comment: &str, problems: &mut Problems) {
+        let lower = comment.to_lowercase().replace("f.p.", "fp").replace("a.p.", "ap");
+        let remedy = "Give station_spacing, or stations, in the conventions if it does not";
+        if self.station_spacing.is_none()
+            && let Some(spacing) = spacing(&lower)
+        {
+            self.station_spacing = Some(spacing);
+            let message = format!("'{}' says that stations are {} m apart", comment.trim(), metres(spacing));
+            problems.warning("W320", FilePosition::FILE, message, remedy);
         }
-        if let Some((before, _)) = lower.split_once(" apart").filter(|_| self.station_spacing.is_none()) {
-            let words: Vec<&str> = before.split_whitespace().collect();
-            let spacing = (1..=2)
-                .rev()
-                .filter_map(|count| words.get(words.len().checked_sub(count)?..))
-                .find_map(|words| parse_length(&words.join(" ")).ok());
-            if let Some(spacing) = spacing.filter(|spacing| *spacing > 0.0 && spacing.is_finite()) {
-                self.station_spacing = Some(spacing);
-                problems.note(format!("stations are {spacing} m apart by '{}'", comment.trim()));
-            }
-        }
-        let from = lower.split_once(" from ").and_then(|(before, after)| {
-            let end = From::end_of(after)?;
-            before.contains("number").then_some(end)
-        });
-        if let Some(from) = from.filter(|_| self.stations.is_none()) {
-            self.stations = Some(StationScale { from, numbers: true });
-            problems.note(format!("stations are numbered by '{}'", comment.trim()));
+        if self.stations.is_none()
+            && let Some(scale) = counted_from(&lower)
+        {
+            self.stations = Some(scale);
+            let what = if scale.numbers { "numbered" } else { "given by their distances" };
+            let message = format!("'{}' says that stations are {what} from {}", comment.trim(), scale.from.as_str());
+            problems.warning("W320", FilePosition::FILE, message, remedy);
         }
     }
 
@@ -277,6 +284,7 @@ impl Settings {
                 self.frame.axes = None;
             }
             "body" => self.frame.half = Some(choice(key, value, &[("half", true), ("whole", false)])?),
+            "parts" => self.frame.parts = Some(parts_of(key, value)?),
             "scale" => self.frame.scale = Some(length(key, value)?),
             "x_origin" => self.frame.x_origin = Some(place(key, value)?),
             "z_origin" => self.frame.z_origin = Some(place(key, value)?),
@@ -285,6 +293,67 @@ impl Settings {
         }
         Ok(())
     }
+}
+
+/// A length in metres with the digits that matter.
+pub(super) fn metres(length: f64) -> String {
+    format!("{}", (1e6 * length).round() / 1e6)
+}
+
+/// Words of a text: runs of letters and digits with decimal points.
+fn words(text: &str) -> Vec<&str> {
+    let words = text.split(|c: char| !c.is_alphanumeric() && c != '.').map(|word| word.trim_matches('.'));
+    words.filter(|word| !word.is_empty()).collect()
+}
+
+/// The end of the hull, or midship, that the first word names, or the one behind an article.
+fn end(words: &[&str]) -> Option<From> {
+    let at = words.iter().position(|word| *word != "the")?;
+    let word = words.get(at).filter(|_| at < 2)?;
+    if *word == "transom" {
+        return Some(From::AftPerpendicular);
+    }
+    From::of(word).or_else(|| From::end_of(word))
+}
+
+/// From where a sentence says that stations count, and whether they are numbers.
+fn counted_from(lower: &str) -> Option<StationScale> {
+    let words = words(lower);
+    let after = |word: &str| words.iter().position(|own| *own == word).map(|at| &words[at + 1..]);
+    let starts = |any: &[&str]| words.first().is_some_and(|first| any.contains(first));
+    let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
+    let stations = ["station", "stations", "ordinate", "ordinates", "section", "sections"];
+    // "station 0 is at FP", "stations are numbered from FP".
+    let is_zero = words.windows(2).any(|pair| stations.contains(&pair[0]) && pair[1] == "0");
+    if is_zero || has(&stations) && has(&["numbered"]) {
+        let from = after("from").and_then(end).or_else(|| after("at").and_then(end))?;
+        return Some(StationScale { from, numbers: true });
+    }
+    // "x from FP, positive aft", "Distances from the stem", "Origin at FP".
+    let from = if starts(&["x", "distance", "distances", "positions", "abscissae"]) {
+        after("from").and_then(end)?
+    } else if starts(&["origin"]) {
+        after("at").and_then(end)?
+    } else {
+        return None;
+    };
+    Some(StationScale { from, numbers: false })
+}
+
+/// The distance between stations in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 5 m".
+fn spacing(lower: &str) -> Option<f64> {
+    let length = |words: &[&str]| parse_length(&words.join(" ")).ok().filter(|l| *l > 0.0 && l.is_finite());
+    if let Some((before, _)) = lower.split_once(" apart").filter(|(before, _)| before.contains("station")) {
+        let words: Vec<&str> = before.split_whitespace().collect();
+        return (1..=2).rev().filter_map(|count| words.get(words.len().checked_sub(count)?..)).find_map(length);
+    }
+    let after = ["station spacing", "stations spacing", "spacing of stations", "spacing of the stations"]
+        .iter()
+        .find_map(|known| lower.split_once(known))?
+        .1;
+    let words: Vec<&str> = after.split([' ', ':', '=', ',', ';', '\t']).filter(|word| !word.is_empty()).collect();
+    let from = words.iter().position(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
+    (1..=2).rev().filter_map(|count| words.get(from..from + count)).find_map(length)
 }
 
 /// The parts `key = value` of a comment, divided by commas or semicolons; the whole where any part is no such thing.
@@ -353,6 +422,23 @@ fn axes(key: &str, value: &Value) -> Result<[(usize, f64); 3], (String, String)>
     match list[..] {
         [a, b, c] if a.0 != b.0 && b.0 != c.0 && c.0 != a.0 => Ok([a, b, c]),
         _ => Err(wrong()),
+    }
+}
+
+/// Numbers and names with commas between them.
+fn parts_of(key: &str, value: &Value) -> Result<Vec<PartChoice>, (String, String)> {
+    let words = match value {
+        Value::Text(text) => text.clone(),
+        Value::Number(number) => number.to_string(),
+        Value::Other(kind) => return Err((format!("{key} is {kind}, expected a text"), String::new())),
+    };
+    let words = words.split(',').map(str::trim).filter(|word| !word.is_empty());
+    let choice = |word: &str| word.parse().map_or_else(|_| PartChoice::Name(word.to_owned()), PartChoice::Number);
+    let list: Vec<PartChoice> = words.map(choice).collect();
+    if list.is_empty() {
+        Err((format!("{key} is empty"), "Give names or numbers, as \"1,3\"".to_owned()))
+    } else {
+        Ok(list)
     }
 }
 

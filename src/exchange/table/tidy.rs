@@ -19,7 +19,7 @@ use super::assemble::{SAME, TableReader};
 use super::columns::{Column, column};
 use super::grid::{MOST_CELLS, MOST_LINES};
 use super::header::{Axis, Corner, Position, position, unit_of};
-use super::numbering::origin;
+use super::numbering::{Breadths, origin};
 use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, units};
 use super::settings::{Settings, nearest};
@@ -132,7 +132,8 @@ pub(super) fn read(
         unit: header.iter().find_map(|f| unit_of(f.trimmed())),
         ..Corner::default()
     };
-    let origin = origin(settings, corner, &positions, y.largest, problems);
+    let breadths = Breadths { largest: y.largest, ..Breadths::default() };
+    let origin = origin(settings, corner, &positions, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], origin.numbers, problems);
     let form = TableForm { origin: origin.datum, layout: TableLayout::Tidy, ..form };
     let mut reader = TableReader::new(settings, form, units, problems);

@@ -9,7 +9,7 @@
 
 use std::io::{Cursor, Read as _};
 
-use calamine::{DataRef, Reader as _, SheetVisible, Xlsx};
+use calamine::{DataRef, Dimensions, Reader as _, SheetVisible, Xlsx};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
 use zip::ZipArchive;
 
@@ -93,6 +93,7 @@ pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>
     let mut sheets = Vec::new();
     let mut cells = 0;
     for metadata in book.sheets_metadata().to_vec() {
+        let merged = book.merge_cells_by_sheet_name(&metadata.name).unwrap_or_default();
         // A sheet of a chart has no cells.
         let Ok(mut reader) = book.worksheet_cells_reader(&metadata.name) else { continue };
         let mut sheet = Sheet {
@@ -101,6 +102,7 @@ pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>
             grid: Grid { separator: ',', ..Grid::default() },
             problems: problems.alike(),
         };
+        let mut dates = Vec::new();
         loop {
             let cell = match reader.next_cell_with_formula() {
                 Ok(Some(cell)) => cell,
@@ -116,6 +118,9 @@ pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>
                 Some(text) => field.text = text,
                 None => continue,
             }
+            if is_date(&cell.value) {
+                dates.push((row, column));
+            }
             cells += 1;
             if row >= MOST_ROWS || column >= MOST_COLUMNS || cells > MOST_CELLS || field.text.len() > LONGEST_FIELD {
                 let message = format!(
@@ -126,6 +131,10 @@ pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>
                 return None;
             }
             place(&mut sheet.grid, field, &mut cells, problems)?;
+        }
+        refuse_dates(&dates, &mut sheet);
+        for range in merged {
+            fill(&mut sheet.grid, range, &mut cells, problems)?;
         }
         let is_filled = sheet.grid.rows.iter().flatten().any(|field| !field.is_blank());
         if is_filled || sheet.problems.any_errors() {
@@ -155,10 +164,9 @@ fn text(value: &DataRef<'_>, formula: bool, field: &Field, problems: &mut Proble
         DataRef::Float(_) | DataRef::Empty => None,
         DataRef::DateTime(date) => {
             let (year, month, day, ..) = date.to_ymd_hms_milli();
-            refuse_date(field, &format!("{year}-{month:02}-{day:02}"), problems)
+            Some(format!("{year}-{month:02}-{day:02}"))
         }
-        DataRef::DateTimeIso(date) => refuse_date(field, date, problems),
-        DataRef::DurationIso(duration) => refuse_date(field, duration, problems),
+        DataRef::DateTimeIso(date) | DataRef::DurationIso(date) => Some(date.clone()),
         DataRef::Error(error) => {
             problems.error("E301", field, format!("the cell holds the error {error}"), "");
             None
@@ -173,10 +181,29 @@ fn unstored(field: &Field, problems: &mut Problems) -> Option<String> {
     None
 }
 
+fn is_date(value: &DataRef<'_>) -> bool {
+    matches!(value, DataRef::DateTime(_) | DataRef::DateTimeIso(_) | DataRef::DurationIso(_))
+}
+
+/// Refuses dates among numbers, or below each other: they are no title.
+fn refuse_dates(dates: &[(usize, usize)], sheet: &mut Sheet) {
+    let is_number = |field: &&Field| field.text.trim().parse::<f64>().is_ok();
+    for &(row, column) in dates {
+        let numbers = sheet.grid.rows[row].iter().filter(is_number).count();
+        let others = dates.iter().filter(|(r, c)| *r == row || *c == column).count();
+        if numbers > 0 || others > 2 {
+            let field = sheet.grid.rows[row][column].clone();
+            refuse_date(&field, &mut sheet.problems);
+        }
+    }
+}
+
 /// What `2005-03-04` may have been: 3-4-5, or 4-3-5 where days come first.
-fn refuse_date(field: &Field, date: &str, problems: &mut Problems) -> Option<String> {
+fn refuse_date(field: &Field, problems: &mut Problems) {
+    let date = field.text.as_str();
     let parts: Vec<u32> = date.split(['-', 'T', ' ']).take(3).filter_map(|part| part.parse().ok()).collect();
     let typed = match parts[..] {
+        [year, month, day] if month == day => format!(": {date} may be {month}-{day}-{}", year % 100),
         [year, month, day] => {
             let eighths = year % 100;
             format!(": {date} may be {month}-{day}-{eighths} or {day}-{month}-{eighths}")
@@ -184,8 +211,28 @@ fn refuse_date(field: &Field, date: &str, problems: &mut Problems) -> Option<Str
         _ => String::new(),
     };
     let message = format!("the cell is a date; spreadsheets make dates of feet-inches-eighths{typed}");
-    problems.error("E301", field, message, "Format the cells as text before typing 3-4-5");
-    None
+    // The date stands in the message.
+    let place = Field { text: String::new(), ..field.clone() };
+    problems.error("E301", &place, message, "Format the cells as text before typing 3-4-5");
+}
+
+/// Numbers in merged cells stand in each of them; titles stand in the first.
+fn fill(grid: &mut Grid, range: Dimensions, cells: &mut usize, problems: &mut Problems) -> Option<()> {
+    let [(top, left), (bottom, right)] = [range.start, range.end].map(|(row, column)| (row as usize, column as usize));
+    let text = grid.rows.get(top).and_then(|row| row.get(left)).map(|field| field.text.clone()).unwrap_or_default();
+    let is_number = |field: &&Field| field.text.trim().parse::<f64>().is_ok();
+    // A number beside a name, above the table, is no offset.
+    let numbers = grid.rows.get(top).map_or(0, |row| row.iter().filter(is_number).count());
+    let is_offset = text.trim().parse::<f64>().is_ok() && (bottom > top || numbers > 1);
+    if !is_offset || bottom >= MOST_ROWS || right >= MOST_COLUMNS {
+        return Some(());
+    }
+    for row in top..=bottom {
+        for column in left..=right {
+            place(grid, Field { text: text.clone(), row: row + 1, column: column + 1 }, cells, problems)?;
+        }
+    }
+    Some(())
 }
 
 /// A text that is a number with a decimal comma, with a point.
