@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use loftsman::config::{DERIVE_KEYS, JOB_KEYS, KEYS, Key, METHOD_KEYS};
+use loftsman::config::{DERIVE_KEYS, JOB_KEYS, KEYS, Key, METHOD_KEYS, TABLE_KEYS};
 use loftsman::hydrostatics::QUANTITIES;
 
 use crate::support::{carried, commands, files_of, program, read_text, stdout};
@@ -142,7 +142,7 @@ fn keys(title: &str, about: &str, keys: &[Key]) -> String {
 }
 
 /// Pages that are made from the lists of the program.
-fn made() -> [(&'static str, String); 5] {
+fn made() -> [(&'static str, String); 6] {
     let quantities =
         QUANTITIES.iter().map(|q| format!("| `{}` | {} | {} | {} |\n", q.key, q.name, q.unit, q.definition));
     let quantities = quantities.collect::<String>();
@@ -161,6 +161,14 @@ fn made() -> [(&'static str, String); 5] {
                 "Keys of the job file of derive",
                 "`derive` reads them; options of the command override them.",
                 DERIVE_KEYS,
+            ),
+        ),
+        (
+            "table-keys",
+            keys(
+                "Keys of the conventions beside a table",
+                "A TOML file of the same name beside a table of offsets or a body. `loftsman schema table` prints its schema.",
+                TABLE_KEYS,
             ),
         ),
         ("method-keys", keys("Keys of the method file", "`fit` reads them.", METHOD_KEYS)),

@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::stream;
 use crate::report::{
-    Destination, Failure, Inputs, accept, check_files, check_json, check_page, check_table, source_files,
+    Destination, Failure, Inputs, accept, check_files, check_json, check_page, check_table_with, conventions_beside,
+    source_files,
 };
 
 #[derive(Debug, Args)]
@@ -14,6 +15,10 @@ use crate::report::{
 pub(super) struct Arguments {
     /// Table of offsets, in any of the formats below
     table: PathBuf,
+    #[command(flatten)]
+    conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
     /// One JSON object
     #[arg(long)]
     json: bool,
@@ -47,7 +52,8 @@ may say what it leaves open.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let inputs = source_files(&arguments.table);
-    let check = check_table(&arguments.table)?;
+    let conventions = arguments.stations.with(&arguments.conventions);
+    let check = check_table_with(&arguments.table, &conventions)?;
     if !arguments.quiet {
         check.notes.iter().for_each(|note| stream::message(note));
     }
@@ -57,8 +63,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             stream::data(&stream::json_judged(check_json(&check), &check.verdict(&arguments.accept))?)?;
         }
         accepted.changes.iter().for_each(|change| stream::message(change));
-        stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }
-            .table(accepted.text, &accepted.form)?;
+        stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }.table(
+            accepted.text,
+            &accepted.form,
+            conventions_beside(&arguments.table, &conventions)?,
+        )?;
         return check.verdict(&arguments.accept);
     }
     if let Some(folder) = &arguments.output {

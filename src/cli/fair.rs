@@ -11,7 +11,7 @@ use super::run_files::RunFiles;
 use super::stream;
 use crate::report::{
     Destination, Failure, FairJob, FairOutputs, Inputs, fair_line, fair_outputs_with_progress, fair_page, fair_summary,
-    read_fair,
+    read_fair_with,
 };
 use crate::units::counted;
 
@@ -21,6 +21,10 @@ pub(super) struct Arguments {
     /// A table of offsets, or a job file (TOML) that names one
     #[arg(value_name = "TABLE|JOB")]
     input: PathBuf,
+    #[command(flatten)]
+    conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
     /// Displacement to hold, "4050 t" or "3951 m3"; "table" for that of the table, "free" for none [default: table]
     #[arg(long, value_name = "MASS|VOLUME", allow_hyphen_values = true)]
     displacement: Option<String>,
@@ -218,7 +222,8 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<FairOutp
         }
     };
     let start = Instant::now();
-    let mut job = match read_fair(&arguments.input, &arguments.options()) {
+    let conventions = arguments.stations.with(&arguments.conventions);
+    let mut job = match read_fair_with(&arguments.input, &arguments.options(), &conventions) {
         Ok(job) => job,
         Err(failure) => return (None, Err(failure)),
     };

@@ -7,7 +7,7 @@ use clap::Args;
 use super::run_files::{Figures, RunFiles};
 use super::{positive, stream};
 use crate::plot::Figure;
-use crate::report::{Destination, Failure, Inputs, fit_outputs, fit_page, read_fit};
+use crate::report::{Destination, Failure, Inputs, fit_outputs, fit_page, read_fit_with};
 
 #[derive(Debug, Args)]
 #[command(after_help = super::TABLES)]
@@ -24,13 +24,20 @@ pub(super) struct Arguments {
     #[arg(long, alias = "draft", value_parser = positive, value_name = "T", allow_hyphen_values = true)]
     draught: Option<f64>,
     #[command(flatten)]
+    conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
+    #[command(flatten)]
     files: RunFiles,
     #[command(flatten)]
     figures: Figures,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let job = read_fit(&arguments.input, arguments.method.as_deref(), arguments.draught)?;
+    let conventions = arguments.stations.with(&arguments.conventions);
+    let job = read_fit_with(&arguments.input, arguments.method.as_deref(), arguments.draught, &conventions)?;
+    let shown = |code: &str| code != "W306" || !arguments.files.quiet;
+    job.warnings().filter(|warning| shown(warning.code)).for_each(|warning| stream::message(&warning.to_string()));
     let figures = arguments.figures.chosen(&arguments.files, &Figure::ALL.map(Figure::key));
     let folder = arguments.files.folder(&arguments.input, false);
     let outputs = fit_outputs(&job, &figures)?;

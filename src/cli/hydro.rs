@@ -27,6 +27,8 @@ pub(super) struct Arguments {
     draught: Option<f64>,
     #[command(flatten)]
     conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
     /// Every quantity as CSV
     #[arg(long, conflicts_with = "json")]
     csv: bool,
@@ -122,7 +124,7 @@ fn conventions(arguments: &Arguments, stored: Conventions) -> Conventions {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let overrides = arguments.conventions.overrides();
+    let overrides = arguments.stations.with(&arguments.conventions);
     let source = match arguments.draught {
         Some(draught) => read_hydrostatic_body_at(&arguments.hull, &overrides, draught)?,
         None => read_hydrostatic_body_with(&arguments.hull, &overrides)?,

@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand. Data goes to stdout, messages to stderr; every number that is printed was
 //! returned by a library function.
 
+mod catalogue;
 mod check;
 mod compare;
 mod completions;
@@ -14,6 +15,7 @@ mod fit;
 mod generate;
 mod hydro;
 mod inspect;
+mod loft;
 mod new;
 mod offsets;
 mod report;
@@ -40,8 +42,8 @@ Tables of offsets, recognised by content: CSV and TSV (matrix of stations and wa
 XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
 DELFTship, input of Michlet, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
 say what it leaves open (units, axes, Lpp, B, T).
-Bodies: meshes as STL (binary, ASCII), OBJ and GLB, panels as GDF, NEMOH (.mar, .dat) and PNL, closed or without deck, transom and flat bow; the B-spline surfaces of IGES and STEP \
-files, without what trims them; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, body (\"half\" or \"whole\"), x_origin \
+Bodies: meshes as STL (binary, ASCII), OBJ, PLY, OFF, GLB, glTF, 3MF, VTK and gmsh, panels as GDF, NEMOH (.mar, .dat), PNL and HydroStar, closed or without deck, transom and flat bow; the faces of IGES and STEP \
+files, trimmed or not; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, body (\"half\" or \"whole\"), x_origin \
 and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 
 /// Generates, fits and fairs ship hulls, and computes their hydrostatics and drawings.
@@ -80,6 +82,8 @@ enum Command {
     Resistance(Box<resistance::Arguments>),
     /// Derive a hull from a parent: other dimensions, displacement, coefficients and centres, all exact
     Derive(Box<derive::Arguments>),
+    /// Hulls that the program carries, ranked by how close they are to what is wanted
+    Catalogue(catalogue::Arguments),
     /// Two hulls beside each other: particulars, hydrostatics in per cent, distances, body plans
     Compare(compare::Arguments),
     /// Table of offsets of a hull at any stations and waterlines
@@ -90,6 +94,8 @@ enum Command {
     Convert(convert::Arguments),
     /// The curves in which a plane cuts a hull
     Section(section::Arguments),
+    /// Frames of a mould loft at full size, inside or outside of the skin, with ordinates and bevels
+    Loft(loft::Arguments),
     /// Inflections, curvature, energies and flats of a hull's curves, signs of its net, curvature of its surface
     Inspect(inspect::Arguments),
     /// Fit the tables of known hulls and compare with what is published about them
@@ -125,13 +131,48 @@ struct BodyFlags {
     /// Whether a mesh or a CAD file has one side of the hull (half) or all of it (whole)
     #[arg(long, value_name = "PART", value_parser = ["half", "whole"])]
     body: Option<String>,
+    /// Parts of a body that count, with commas between them: groups, solids or layers by name, shells by number
+    #[arg(long, value_name = "PARTS")]
+    parts: Option<String>,
+    /// Distance between the numbers of stations of a table
+    #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
+    station_spacing: Option<f64>,
+    /// Distance between the numbers of waterlines of a table
+    #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
+    waterline_spacing: Option<f64>,
 }
 
 impl BodyFlags {
     fn overrides(&self) -> Overrides {
         let unit = self.input_unit.map(|unit| unit.as_str().to_owned());
-        let keys = [("units", unit), ("up", self.up.clone()), ("axes", self.axes.clone()), ("body", self.body.clone())];
+        let metres = |length: Option<f64>| length.map(|length| format!("{length} m"));
+        let keys = [
+            ("units", unit),
+            ("up", self.up.clone()),
+            ("axes", self.axes.clone()),
+            ("body", self.body.clone()),
+            ("parts", self.parts.clone()),
+            ("station_spacing", metres(self.station_spacing)),
+            ("waterline_spacing", metres(self.waterline_spacing)),
+        ];
         Overrides { keys: keys.into_iter().filter_map(|(key, value)| Some((key, value?))).collect(), file: None }
+    }
+}
+
+/// How the stations of a table are to be understood, over the TOML file beside it.
+#[derive(Debug, Args)]
+struct StationFlags {
+    /// Stations of a table: "from AP", "from midship" or "from FP" for distances, "numbers from AP" or "numbers from FP"
+    #[arg(long, value_name = "WORDS", value_parser = ["from AP", "from midship", "from FP", "numbers from AP", "numbers from FP"])]
+    stations: Option<String>,
+}
+
+impl StationFlags {
+    /// The conventions with that of the stations.
+    fn with(&self, conventions: &BodyFlags) -> Overrides {
+        let mut overrides = conventions.overrides();
+        overrides.keys.extend(self.stations.clone().map(|words| ("stations", words)));
+        overrides
     }
 }
 
@@ -193,7 +234,9 @@ fn command(arguments: &[OsString]) -> Result<(), Failure> {
         Command::Offsets(arguments) => offsets::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
+        Command::Catalogue(arguments) => catalogue::run(arguments),
         Command::Section(arguments) => section::run(arguments),
+        Command::Loft(arguments) => loft::run(arguments),
         Command::Inspect(arguments) => inspect::run(arguments),
         Command::Validate(arguments) => validate::run(arguments),
         Command::SelfTest(arguments) => self_test::run(arguments),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::hull::TableForm;
-use crate::report::{Destination, Failure, Inputs, OutputFile, TENDER};
+use crate::report::{Destination, Failure, Inputs, OutputFile, TENDER, same_path};
 
 /// Whether something was written to stdout: a second document behind the first would spoil both.
 static WRITTEN: AtomicBool = AtomicBool::new(false);
@@ -73,19 +73,25 @@ impl Target<'_> {
     pub(super) fn bytes(&self, contents: Vec<u8>) -> Result<(), Failure> {
         match self.file {
             None => raw(&contents),
-            Some(path) => self.into(path, |name| Ok(OutputFile { name: name.to_owned(), contents })),
+            Some(path) => self.into(path, None, |name| Ok(OutputFile { name: name.to_owned(), contents })),
         }
     }
 
-    /// Writes a table; a file whose name ends in `.xlsx` becomes a workbook.
-    pub(super) fn table(&self, text: String, form: &TableForm) -> Result<(), Failure> {
+    /// Writes a table, with its conventions in a TOML file of the same name; a file whose name ends in `.xlsx` becomes a
+    /// workbook.
+    pub(super) fn table(&self, text: String, form: &TableForm, conventions: Option<String>) -> Result<(), Failure> {
         match self.file {
             None => data(&text),
-            Some(path) => self.into(path, |name| OutputFile::table(name, text, form)),
+            Some(path) => self.into(path, conventions, |name| OutputFile::table(name, text, form)),
         }
     }
 
-    fn into(&self, path: &Path, contents: impl FnOnce(&str) -> Result<OutputFile, Failure>) -> Result<(), Failure> {
+    fn into(
+        &self,
+        path: &Path,
+        conventions: Option<String>,
+        contents: impl FnOnce(&str) -> Result<OutputFile, Failure>,
+    ) -> Result<(), Failure> {
         let Some(name) = path.file_name() else {
             let error = std::io::Error::new(ErrorKind::InvalidInput, "not the name of a file");
             return Err(Failure::FileSystem { act: "write", path: path.to_owned(), error });
@@ -93,7 +99,12 @@ impl Target<'_> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let inputs = Inputs::of(self.inputs);
         let destination = Destination { folder, inputs: &inputs, force: self.force };
-        destination.write(&[contents(&name.to_string_lossy())?])
+        let mut files = vec![contents(&name.to_string_lossy())?];
+        let beside = Path::new(name).with_extension("toml").to_string_lossy().into_owned();
+        // Beside the table that was read its conventions stand already.
+        let is_read = self.inputs.iter().any(|input| same_path(input, &folder.join(&beside)));
+        files.extend(conventions.filter(|_| !is_read).map(|text| OutputFile::text(&beside, text)));
+        destination.write(&files)
     }
 }
 

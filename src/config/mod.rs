@@ -14,6 +14,7 @@ mod keys;
 mod method;
 mod reference;
 mod schema;
+mod table_keys;
 mod template;
 mod value;
 
@@ -24,5 +25,6 @@ pub use job::{JOB_KEYS, JobFile, Location, Quantity, RuleEntry, TableItem, Table
 pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind, PRESET_ALIASES};
 pub use method::{METHOD_KEYS, METHODS, MethodFile, read_method};
 pub use reference::{Reference, ReferenceRow};
-pub use schema::{design_schema, job_schema, method_schema};
+pub use schema::{conventions_schema, design_schema, job_schema, method_schema};
+pub use table_keys::TABLE_KEYS;
 pub use template::{TEMPLATES, template};

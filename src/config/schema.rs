@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 use super::job::JOB_KEYS;
 use super::keys::{FIGURES, KEYS, Key, Kind};
 use super::method::METHOD_KEYS;
+use super::table_keys::TABLE_KEYS;
 
 fn number_or_text(examples: &[&str]) -> Value {
     json!({ "type": ["number", "string"], "examples": examples })
@@ -131,6 +132,43 @@ pub fn job_schema() -> Value {
     let description =
         "How a table of offsets is to be faired. Plain numbers are metres; keys may be written in upper or lower case.";
     file_schema(JOB_KEYS, "Job", "loftsman job file", description)
+}
+
+/// The JSON Schema of the conventions beside a table of offsets or a body.
+#[must_use]
+pub fn conventions_schema() -> Value {
+    let description = "What a table of offsets or a body does not say of itself. Plain numbers are metres; keys may be written in upper or \
+                       lower case.";
+    let mut schema = file_schema(TABLE_KEYS, "Conventions", "loftsman conventions of a table", description);
+    let number = json!({"type": "number"});
+    let points = |of: usize| json!({"type": "array", "items": {"type": "array", "items": number, "minItems": of, "maxItems": of}});
+    let others = json!({
+        "endings": {
+            "type": "object",
+            "description": "Profiles of stern and stem, as lists of [z, x] [m].",
+            "properties": {"stern": points(2), "stem": points(2)},
+            "additionalProperties": false,
+        },
+        "transom": {
+            "type": "object",
+            "description": "Plane of the transom: x = x + slope z [m].",
+            "properties": {"x": number, "slope": number},
+            "additionalProperties": false,
+        },
+        "line": {
+            "type": "array",
+            "description": "Knuckles and tangent lines, as lists of [x, y, z] [m].",
+            "items": {
+                "type": "object",
+                "properties": {"name": {"type": "string"}, "kind": {"enum": ["knuckle", "tangent"]}, "points": points(3)},
+                "additionalProperties": false,
+            },
+        },
+    });
+    if let (Some(Value::Object(own)), Value::Object(others)) = (schema.get_mut("properties"), others) {
+        own.extend(others);
+    }
+    schema
 }
 
 fn file_schema(keys: &'static [Key], word: &str, title: &str, description: &str) -> Value {
