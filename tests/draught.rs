@@ -268,7 +268,10 @@ fn without_a_draught_volume_and_centre_of_volume_are_held() {
     let held = "volume and centre of volume below z = 9.754 m";
     let words = in_one_line(&page);
     assert!(page.lines().next().is_some_and(|line| line.ends_with(&format!("{held} kept."))), "{page}");
-    assert!(words.contains("Assumed: Lpp, B, D. No draught is stated: give --draught."), "{page}");
+    assert!(
+        words.contains("Assumed: L_PP, B, LCB origin, density, D. No draught is stated: give --draught."),
+        "{page}"
+    );
     assert_eq!(page.lines().count(), 9, "{page}");
     assert!(page.contains("Volume below z = 9.754 m 12587") && !page.contains("Displacement"), "{page}");
     assert!(page.lines().skip(1).all(|line| line.starts_with("Written") || line.chars().count() <= 80), "{page}");

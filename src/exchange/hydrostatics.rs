@@ -215,18 +215,24 @@ pub fn hydrostatics_json(
     }))
 }
 
-/// A CSV table: the keys, the units, one row a draught, and a last column with remarks.
+/// A CSV table: the keys, the units, one row a draught, and a last column with remarks. Of a body whose sides differ, YCB
+/// \[m\] and, where KG is known, its heel \[deg\] stand before the remarks.
 #[must_use]
 pub fn hydrostatics_csv(table: &CurvesOfForm) -> String {
-    let head = |of: fn(&crate::hydrostatics::Quantity) -> &'static str, last: &str| {
-        let mut fields: Vec<String> = QUANTITIES.iter().map(|q| of(q).to_owned()).collect();
-        fields.push(last.to_owned());
-        line(&fields)
-    };
-    let mut text = head(|q| q.key, "remark");
-    text.push_str(&head(|q| q.unit, ""));
+    type Aside = (&'static str, &'static str, fn(&Hydrostatics) -> Option<f64>);
+    let asides: [Aside; 2] = [("YCB", "m", |row| row.transverse_centre), ("HEEL", "deg", |row| row.heel)];
+    let asides: Vec<Aside> =
+        asides.into_iter().filter(|(.., of)| table.rows.iter().any(|row| of(row).is_some())).collect();
+    let head =
+        |of: fn(&crate::hydrostatics::Quantity) -> &'static str, aside: fn(&Aside) -> &'static str, last: &str| {
+            let own = QUANTITIES.iter().map(of).chain(asides.iter().map(aside)).chain([last]);
+            line(&own.map(str::to_owned).collect::<Vec<_>>())
+        };
+    let mut text = head(|q| q.key, |(key, ..)| key, "remark");
+    text.push_str(&head(|q| q.unit, |(_, unit, _)| unit, ""));
     for row in &table.rows {
-        let mut fields: Vec<String> = QUANTITIES.iter().map(|q| cell((q.value)(row))).collect();
+        let values = QUANTITIES.iter().map(|q| (q.value)(row)).chain(asides.iter().map(|(.., of)| of(row)));
+        let mut fields: Vec<String> = values.map(cell).collect();
         fields.push(row.remark.clone().unwrap_or_default());
         text.push_str(&line(&fields));
     }

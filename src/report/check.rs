@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::failure::Failure;
 use super::files::OutputFile;
-use super::source::read_table_file;
+use super::source::{Overrides, read_table_file_with};
 use super::verdict::is_warning;
 use crate::config::{self, Diagnostic};
 use crate::exchange::{self, TableProblem, TableWriting, write_table};
@@ -63,7 +63,15 @@ pub struct Check {
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] where no table is found in the file.
 pub fn check_table(path: &Path) -> Result<Check, Failure> {
-    match read_table_file(path) {
+    check_table_with(path, &Overrides::default())
+}
+
+/// The same, with conventions over those of the file beside the table.
+///
+/// # Errors
+/// Those of [`check_table`].
+pub fn check_table_with(path: &Path, conventions: &Overrides) -> Result<Check, Failure> {
+    match read_table_file_with(path, conventions) {
         Ok((table, notes)) => {
             // A warning about a cell is a problem; that profiles are missing, or a column not used, is none of a table
             // that is only checked.

@@ -8,6 +8,7 @@ use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_of};
 use super::hydrostatic_body::{HydrostaticBody, read_hydrostatic_body_at, read_hydrostatic_body_with};
 use super::source::{Overrides, read_bytes, read_source_with, ship_name};
+use super::verdict::is_warning;
 use crate::config::{Diagnostic, Severity};
 use crate::exchange::{CompareFile, ComparedValue, compare_csv, compare_json, per_cent};
 use crate::hull::{Hull, PrincipalParticulars, SurfaceDistance, surface_distance};
@@ -132,7 +133,7 @@ pub fn compare_outputs(job: &CompareJob) -> Result<CompareOutputs, Failure> {
     let conventions = first.body.conventions;
     let mut warnings: Vec<String> = first.body.warnings().chain(second.body.warnings()).collect();
     warnings.extend(other_conventions(job, &conventions, &second.body.conventions));
-    let notes = first.body.notes.iter().chain(&second.body.notes).filter(|note| !warnings.contains(note));
+    let notes = first.body.notes.iter().chain(&second.body.notes).filter(|note| !is_warning(note));
     let notes = notes.cloned().collect();
     let common = common_draughts(&first.body, &second.body)?;
     let rows = |opened: &Opened| -> Result<Rows, Failure> {

@@ -214,7 +214,7 @@ fn target(reached: &Reached) -> DerivedTarget {
 /// not take (E422).
 pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutputs, Failure> {
     let source = read_source_with(&job.parent, &job.overrides)?;
-    let Source { hull, conventions, notes } = source;
+    let Source { hull, conventions, notes, .. } = source;
     let parent = match job.wanted.parent_draught {
         Some(draught) => {
             hull.with_draught(draught).map_err(|error| Failure::Usage(format!("--parent-draught: {error}")))?

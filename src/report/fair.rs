@@ -10,7 +10,8 @@ use super::failure::{Failure, problem};
 use super::fair_grades;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
-use super::source::{Overrides, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
+use super::source::{Overrides, is_toml, merged, read_bytes, read_table_stated, remark, ship_name, utf8};
+use super::verdict::unusual;
 use crate::config::{self, Diagnostic, JobFile};
 use crate::exchange::{
     COMPROMISE_LINE, CurveProblem, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting,
@@ -40,6 +41,8 @@ pub struct FairJob {
     pub reading: Vec<TableProblem>,
     /// Conventions of what is printed.
     pub conventions: Conventions,
+    /// Conventions of the table over those of the file beside it.
+    table_conventions: Overrides,
     /// Whether the table is faired at all whole grades of fairness besides.
     pub grades: bool,
     table_file: PathBuf,
@@ -91,6 +94,18 @@ fn table_of(path: &Path, job: &JobFile) -> Result<PathBuf, Failure> {
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the files and of the options; [`Failure::Usage`] with
 /// those of the options where the files have none.
 pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJob, Failure> {
+    read_fair_with(path, options, &Overrides::default())
+}
+
+/// The same, with conventions of the table over those of the file beside it.
+///
+/// # Errors
+/// Those of [`read_fair`].
+pub fn read_fair_with(
+    path: &Path,
+    options: &[(&str, &str, String)],
+    table_conventions: &Overrides,
+) -> Result<FairJob, Failure> {
     let (mut inputs, mut files) = (Vec::new(), Vec::new());
     let mut read = |path: &Path| -> Result<Vec<u8>, Failure> {
         let bytes = read_bytes(path)?;
@@ -125,7 +140,7 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     } else {
         None
     };
-    let (mut table, reading) = read_table_stated(&table_file, &request.stated, path)?;
+    let (mut table, reading) = read_table_stated(&table_file, &request.stated, path, table_conventions)?;
     if table.name.trim().is_empty() {
         table.name = ship_name(&table_file);
     }
@@ -154,7 +169,20 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     let given = Given::of_table(table.stated.draught.map(|_| by_user));
     let given = Given { density: request.density.is_some(), ..given };
     let conventions = Conventions { density, assumed, given, ..Conventions::default() };
-    Ok(FairJob { table, job, reading, conventions, grades: false, table_file, sidecar, request, inputs, files })
+    let table_conventions = table_conventions.clone();
+    Ok(FairJob {
+        table,
+        job,
+        reading,
+        conventions,
+        table_conventions,
+        grades: false,
+        table_file,
+        sidecar,
+        request,
+        inputs,
+        files,
+    })
 }
 
 /// The surface through a table.
@@ -252,32 +280,16 @@ fn with_texts(job: &FairJob, outcome: &Outcome) -> OffsetTable {
     table
 }
 
-/// The dimensions that the job says.
+/// The dimensions that the job says, and the conventions of the table that the command says.
 fn overrides(job: &FairJob) -> Overrides {
-    Overrides::dimensions(&job.request.stated, job.files.first().unwrap_or(&job.table_file))
+    let dimensions = Overrides::dimensions(&job.request.stated, job.files.first().unwrap_or(&job.table_file));
+    dimensions.and(&job.table_conventions)
 }
 
 /// What the table leaves open belongs to the new one as well: the conventions beside it, with the dimensions that the
 /// job says.
 fn conventions_beside(job: &FairJob) -> Option<String> {
-    let sidecar = job.sidecar.as_ref().map(|(_, text)| text.clone());
-    let Some((_, stated)) = overrides(job).text() else { return sidecar };
-    let Some(sidecar) = sidecar else { return Some(stated) };
-    let (mut all, over) = (sidecar.parse::<toml::Table>().ok()?, stated.parse::<toml::Table>().ok()?);
-    for (name, keys) in over {
-        let toml::Value::Table(keys) = keys else { continue };
-        // The dimensions may stand in two tables, in capital or small letters.
-        for (_, table) in &mut all {
-            if let toml::Value::Table(table) = table {
-                table.retain(|old, _| !keys.keys().any(|key| key.eq_ignore_ascii_case(old)));
-            }
-        }
-        let table = all.entry(name).or_insert_with(|| toml::Value::Table(toml::Table::new()));
-        if let toml::Value::Table(table) = table {
-            table.extend(keys);
-        }
-    }
-    toml::to_string(&all).ok()
+    merged(job.sidecar.as_ref().map(|(_, text)| text.clone()), &overrides(job))
 }
 
 /// What rounding did to the offsets and to the volume; the table as it is read back.
@@ -399,6 +411,7 @@ pub fn fair_outputs_with_progress(
     // What reading the table had to guess decides the hull as much.
     outcome.notes.splice(0..0, job.warnings().map(remark));
     let rows = row(job, &outcome.before).zip(row(job, &outcome.after)).map(|(before, after)| [before, after]);
+    outcome.notes.extend(rows.as_ref().and_then(|[before, _]| unusual(before)));
     let name = offsets_name(job);
     let written = write_table(&with_texts(job, &outcome), TableWriting::default());
     let (effect, back) = rounded(job, &outcome, &name, &written.text);

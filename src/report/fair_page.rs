@@ -250,21 +250,18 @@ pub(super) fn dimensions(outcome: &Outcome) -> String {
     super::page::dimensions(outcome.after.particulars())
 }
 
-/// The dimensions that nobody stated.
-pub(super) fn not_stated(job: &FairJob) -> Vec<&'static str> {
-    let stated = &job.table.stated;
-    let dimensions = [("Lpp", stated.length_between_perpendiculars), ("B", stated.breadth), ("D", stated.depth)];
-    dimensions.iter().filter(|(_, value)| value.is_none()).map(|(name, _)| *name).collect()
+/// What is given, from the table and assumed, the depth among it.
+pub(super) fn sources(job: &FairJob) -> String {
+    let mut sources = job.conventions.sources();
+    if job.table.stated.depth.is_none() {
+        sources.push_str(if sources.contains("assumed: ") { ", D" } else { "; assumed: D" });
+    }
+    format!("{}{}", sources[..1].to_uppercase(), &sources[1..])
 }
 
 /// What is held, and all figures, rest on dimensions that nobody stated: reported before all figures.
 fn assumed(job: &FairJob, outcome: &Outcome) -> String {
-    let names = not_stated(job);
-    let mut text = if names.is_empty() {
-        String::new()
-    } else {
-        wrapped(&format!("Not stated, so assumed (see the notes): {}.", names.join(", ")), 2)
-    };
+    let mut text = wrapped(&format!("{}.", sources(job)), 2);
     text.push_str(&without_draught(outcome));
     if !outcome.before.counts_from_aft_perpendicular() {
         let line = match outcome.before.particulars().draught {

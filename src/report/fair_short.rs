@@ -2,7 +2,7 @@
 
 use super::fair::{FairJob, FairOutputs};
 use super::fair_held::{MOST_AREAS, change_of_form};
-use super::fair_page::{dimensions, limit, millimetres, not_stated, place, tolerances};
+use super::fair_page::{dimensions, limit, millimetres, place, sources, tolerances};
 use super::page::WIDTH;
 use crate::exchange::status_word;
 use crate::fairing::constraint::Constraint;
@@ -83,23 +83,16 @@ pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> Strin
     lines.map(|line| line + "\n").concat()
 }
 
-/// Which dimensions nobody stated.
+/// What is given, from the table and assumed.
 fn stated(job: &FairJob, outcome: &Outcome) -> String {
-    let names = not_stated(job).join(", ");
+    let sources = sources(job);
     let midship = if outcome.before.counts_from_aft_perpendicular() { "" } else { "; midship is not known" };
-    match outcome.before.particulars().draught {
-        None if names.is_empty() => format!("No draught is stated: give --draught for displacement{midship}."),
-        None => format!("Assumed: {names}. No draught is stated: give --draught{midship}."),
-        Some(_) => {
-            let names = if names.is_empty() {
-                "These dimensions are stated"
-            } else {
-                &format!("Not stated, so assumed: {names}")
-            };
-            let held = if midship.is_empty() { "" } else { ", C_M is not held" };
-            format!("{names}{midship}{held}.")
-        }
-    }
+    let rest = match outcome.before.particulars().draught {
+        None => ". No draught is stated: give --draught",
+        Some(_) if !midship.is_empty() => ", C_M is not held",
+        Some(_) => "",
+    };
+    format!("{sources}{midship}{rest}.")
 }
 
 /// How many offsets stayed, and their tolerances.

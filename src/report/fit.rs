@@ -14,11 +14,12 @@ use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::overshoot;
 use super::page::{WIDTH, conventions_line, dimensions, no_draught, quantities, wrapped};
 use super::result_files::source_words;
-use super::source::{is_toml, read_bytes, read_table_stated, remark, ship_name, source_files, utf8};
+use super::source::{Overrides, is_toml, read_bytes, read_table_stated, remark, ship_name, source_files, utf8};
+use super::verdict::unusual;
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
-    ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv, row_json,
-    write_hull,
+    self, ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv,
+    row_json, write_hull,
 };
 use crate::fairing::{Suspects, suspects};
 use crate::hull::{
@@ -50,6 +51,11 @@ pub struct FitJob {
 }
 
 impl FitJob {
+    /// What reading the table had to guess.
+    pub fn warnings(&self) -> impl Iterator<Item = &TableProblem> {
+        self.reading.iter().filter(|problem| problem.severity == exchange::Severity::Warning)
+    }
+
     /// The files that were read.
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {
@@ -103,6 +109,19 @@ fn named_method(word: &str, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFil
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of a file; [`Failure::Usage`].
 pub fn read_fit(path: &Path, method_name: Option<&str>, draught: Option<f64>) -> Result<FitJob, Failure> {
+    read_fit_with(path, method_name, draught, &Overrides::default())
+}
+
+/// The same, with conventions of the table over those of the file beside it.
+///
+/// # Errors
+/// Those of [`read_fit`].
+pub fn read_fit_with(
+    path: &Path,
+    method_name: Option<&str>,
+    draught: Option<f64>,
+    conventions: &Overrides,
+) -> Result<FitJob, Failure> {
     let mut inputs = Vec::new();
     let (method, table_file) = if is_toml(path) {
         if let Some(word) = method_name {
@@ -126,7 +145,7 @@ pub fn read_fit(path: &Path, method_name: Option<&str>, draught: Option<f64>) ->
     // The file that the command named comes first.
     inputs.insert(if is_toml(path) { inputs.len() } else { 0 }, manifest_entry(&table_file, &bytes));
     let over = StatedParticulars { draught: draught.or(method.stated.draught), ..method.stated };
-    let (mut table, notes) = read_table_stated(&table_file, &over, path)?;
+    let (mut table, notes) = read_table_stated(&table_file, &over, path, conventions)?;
     if table.name.trim().is_empty() {
         table.name = ship_name(&table_file);
     }
@@ -263,7 +282,10 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
     let estimate = VolumeEstimate::new(&job.table, &job.method.method, &fitted.hull, fitted.hull.reference_height());
     let mut warnings = overshoot::warnings(&job.table, &fitted.hull, design_row.as_ref());
     warnings.extend(drawn_doubt(&job.table, &fitted.hull));
-    let summary = summary(job, &fitted, &estimate, &warnings, design_row.as_ref(), &conventions);
+    warnings.extend(design_row.as_ref().and_then(unusual));
+    // The page has those of the reading among its notes.
+    let all: Vec<String> = job.warnings().map(remark).chain(warnings.iter().cloned()).collect();
+    let summary = summary(job, &fitted, &estimate, &all, design_row.as_ref(), &conventions);
 
     let surface = fitted.surface_table(&job.table);
     let endings = surface.endings.iter().flatten().any(Option::is_some);

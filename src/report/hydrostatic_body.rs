@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::convert::is_hull;
 use super::failure::{Failure, problem};
 use super::source::{Overrides, ending, read_bytes, read_source_with, sidecar, source_of};
-use super::verdict::is_warning;
+use super::verdict::{is_warning, without_folder};
 use crate::config::{Diagnostic, Severity};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{AFLOAT, AT_EDGE, Hull, HullError, PrincipalParticulars, TriangleMesh};
@@ -13,6 +13,9 @@ use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Given, Hydrostatic
 
 /// Part of the height of a body by which its lowest point may be from the base line.
 const AT_BASE: f64 = 0.2;
+
+/// A row whose draught is off the design draught by at most this part of it tells what is unusual there.
+const NEAR_DESIGN: f64 = 0.1;
 
 /// A body with the conventions of its tables.
 #[derive(Debug, Clone)]
@@ -47,9 +50,9 @@ impl HydrostaticBody {
         }
     }
 
-    /// Those of the notes that are warnings.
+    /// Those of the notes that are warnings, for files: without the folder of the input.
     pub fn warnings(&self) -> impl Iterator<Item = String> + '_ {
-        self.notes.iter().filter(|note| is_warning(note)).cloned()
+        self.notes.iter().filter(|note| is_warning(note)).map(|note| without_folder(note, &self.path))
     }
 
     /// Heights of the lowest and the highest point \[m\]; none of a hull.
@@ -139,10 +142,15 @@ impl HydrostaticBody {
         Ok((table, warnings.collect()))
     }
 
-    /// What hardly any ship has at the design draught, where a row is at it.
+    /// What hardly any ship has at the design draught, in the row that is near it; where no draught is stated, in that of
+    /// the greatest.
     fn unusual(&self, table: &CurvesOfForm) -> Option<Diagnostic> {
-        let draught = self.particulars.draught?;
-        let row = table.rows.iter().find(|row| (row.draught - draught).abs() <= 1e-9 * draught)?;
+        let off = |row: &Hydrostatics| self.particulars.draught.map_or(-row.draught, |t| (row.draught - t).abs());
+        let row = table.rows.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let draught = row.draught;
+        if self.particulars.draught.is_some_and(|stated| (draught - stated).abs() > NEAR_DESIGN * stated) {
+            return None;
+        }
         let found: Vec<String> = row.unusual().into_iter().map(|(_, found)| found).collect();
         let remedy = "Check where AP is, and the forward axis";
         let message = || format!("at {draught:.3} m {}", found.join(", "));

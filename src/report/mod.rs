@@ -1,5 +1,6 @@
 //! Whole jobs: from a design or a table to the files about it, and what is printed of them.
 
+mod catalogue;
 mod check;
 mod codes;
 mod comb_lines;
@@ -25,6 +26,7 @@ mod generate;
 mod hydrostatic_body;
 mod inspect;
 mod lines_plan;
+mod loft;
 mod markdown;
 mod overshoot;
 mod page;
@@ -42,7 +44,13 @@ mod staging;
 mod validate;
 mod verdict;
 
-pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
+pub use catalogue::{
+    CatalogueEntry, WANTED, catalogue, catalogue_file, catalogue_json, catalogue_names, catalogue_page, index_csv,
+    ranked,
+};
+pub use check::{
+    Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table, check_table_with,
+};
 pub use codes::{CODES, Explanation, codes_json, codes_list, codes_page, codes_text, explanation, explanations};
 pub use compare::{CompareJob, CompareOutputs, ComparedHull, compare_files, compare_outputs};
 pub use compare_page::compare_page;
@@ -51,17 +59,18 @@ pub use derive::{DeriveJob, DeriveOutputs, derive_files, derive_outputs, read_de
 pub use derive_page::derive_page;
 pub use export::{ExportFormat, ExportSettings, Exported, draught_of, export};
 pub use failure::{COMMAND_LINE, Failure};
-pub use fair::{FairJob, FairOutputs, fair_outputs, fair_outputs_with_progress, read_fair};
+pub use fair::{FairJob, FairOutputs, fair_outputs, fair_outputs_with_progress, read_fair, read_fair_with};
 pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve};
 pub use fair_page::{fair_line, fair_page};
 pub use fair_short::fair_summary;
 pub use files::{Destination, Inputs, OutputFile, same_path};
-pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
+pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit, read_fit_with};
 pub use generate::{Outputs, generate_outputs};
 pub use hydrostatic_body::{
     HydrostaticBody, read_hydrostatic_body, read_hydrostatic_body_at, read_hydrostatic_body_with,
 };
 pub use inspect::{inspection_json, inspection_page};
+pub use loft::{LoftFormat, LoftSettings, Lofted, SkinSide, loft};
 pub use page::{TENDER, hydrostatics_page, self_test_page, summary_page};
 pub use resistance::{ResistanceJob, ResistanceOutputs, resistance_files, resistance_outputs};
 pub use resistance_inputs::ResistanceOptions;
@@ -70,7 +79,7 @@ pub use result::{JobResult, read_result};
 pub use result_files::{ReportSettings, report_outputs};
 pub use self_test::{SelfCheck, self_test};
 pub use source::{
-    Overrides, Source, offsets, read_design, read_source, read_source_with, read_table_file, read_table_file_with,
-    sections_of, source_files,
+    Overrides, Source, conventions_beside, offsets, read_design, read_source, read_source_with, read_table_file,
+    read_table_file_with, sections_of, source_files,
 };
 pub use validate::{Case, Comparison, Tolerance, Verdict, validate, validation_csv, validation_json, validation_page};

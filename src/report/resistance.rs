@@ -98,6 +98,7 @@ pub fn resistance_outputs(job: &ResistanceJob) -> Result<ResistanceOutputs, Fail
         draught: draught - body.lowest(),
         draught_given: job.draught.is_some(),
         density: job.options.density.unwrap_or(body.conventions.density),
+        density_given: body.conventions.given.density,
     };
     let gathered = gather(&afloat, &job.options);
     let thin = if job.method == Method::Michell { Some(thin_ship(job, &body, draught)?) } else { None };

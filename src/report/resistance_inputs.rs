@@ -114,8 +114,9 @@ pub(super) struct Afloat<'a> {
     /// Its draught above its lowest point \[m\].
     pub(super) draught: f64,
     pub(super) draught_given: bool,
-    /// Density of its tables [t/m^3].
+    /// Density of its tables [t/m^3], and whether it is stated there.
     pub(super) density: f64,
+    pub(super) density_given: bool,
 }
 
 /// Gathers the inputs.
@@ -205,7 +206,7 @@ pub(super) fn gather(afloat: &Afloat<'_>, options: &ResistanceOptions) -> Gather
     let given = options.stern.map(SternShape::coefficient);
     list.take(label("C_stern", "shape of the after body", "-", 0), given, None, (0.0, "normal sections"));
     appendages(&mut list, options);
-    let water = water(&mut list, options, afloat.density);
+    let water = water(&mut list, options, afloat.density, afloat.density_given);
     Gathered {
         blunt: of_hull.filter(|_| options.half_angle.is_none() && sharp.is_none()),
         bulb_found: options.bulb_area.is_none() && bulb.is_some(),
@@ -225,8 +226,10 @@ fn appendages(list: &mut Inputs, options: &ResistanceOptions) {
     }
 }
 
-fn water(list: &mut Inputs, options: &ResistanceOptions, stored: f64) -> Water {
-    let density = list.take(label("density", "of the water", "t/m3", 4), options.density, Some(stored), (stored, ""));
+fn water(list: &mut Inputs, options: &ResistanceOptions, stored: f64, is_given: bool) -> Water {
+    let of_hull = is_given.then_some(stored);
+    let density =
+        list.take(label("density", "of the water", "t/m3", 4), options.density, of_hull, (stored, "sea water"));
     let temperature = options.temperature.unwrap_or(TEMPERATURE);
     if options.viscosity.is_none() {
         list.take(label("t", "temperature of the water", "deg C", 1), options.temperature, None, (TEMPERATURE, ""));

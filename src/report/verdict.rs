@@ -1,5 +1,7 @@
 //! What a fairing came to, in sentences.
 
+use std::path::Path;
+
 use serde_json::Value;
 
 use super::fair_page::{limit, millimetres};
@@ -167,6 +169,22 @@ fn fair(counts: &Value) -> Option<String> {
 pub(super) fn is_warning(note: &str) -> bool {
     let digits = note.strip_prefix('W').unwrap_or_default();
     digits.len() > 3 && digits.as_bytes()[..3].iter().all(u8::is_ascii_digit)
+}
+
+/// A message about a file without the folder of this: results say nothing of where it lies.
+pub(super) fn without_folder(note: &str, file: &Path) -> String {
+    match file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        Some(folder) => note.replacen(&format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR), "", 1),
+        None => note.to_owned(),
+    }
+}
+
+/// What hardly any ship has at its design draught, as a warning.
+pub(super) fn unusual(row: &Hydrostatics) -> Option<String> {
+    let found: Vec<String> = row.unusual().into_iter().map(|(_, found)| found).collect();
+    let draught = row.draught;
+    (!found.is_empty())
+        .then(|| format!("W354 at {draught:.3} m {}. Check where AP is, and the forward axis", found.join(", ")))
 }
 
 /// What the fairing came to, in sentences.
