@@ -29,7 +29,7 @@ fn the_index_has_the_particulars_of_the_files() {
 
 #[test]
 fn every_hull_has_a_source_and_a_licence_and_the_figures_of_its_publication() {
-    let list = catalogue(None).unwrap();
+    let (list, _) = catalogue(None).unwrap();
     assert!(list.len() + 1 >= catalogue_names().len(), "{}", list.len());
     for entry in &list {
         assert!(!entry.title.is_empty() && !entry.source.is_empty() && !entry.licence.is_empty(), "{}", entry.name);
@@ -54,7 +54,7 @@ fn every_hull_has_a_source_and_a_licence_and_the_figures_of_its_publication() {
 
 #[test]
 fn the_nearest_hull_comes_first() {
-    let list = catalogue(None).unwrap();
+    let (list, _) = catalogue(None).unwrap();
     for wanted in &list {
         let like = [("L", wanted.length), ("B", wanted.breadth), ("T", wanted.draught), ("Cb", wanted.block)];
         let found = ranked(list.clone(), &like);

@@ -2,7 +2,9 @@
 
 use loftsman::exchange::{MOST_COLUMNS, Severity, TableProblem, read_table, read_table_with};
 
-use crate::support::{among, notes};
+use std::fs;
+
+use crate::support::{among, folder, notes, program, stdout};
 
 fn problems(text: &str) -> Vec<String> {
     shown(read_table("t.csv", text.as_bytes()).err())
@@ -329,4 +331,22 @@ fn warnings_and_notes() {
     among(&notes("x,0.5,1\n0,1000,2000\n10,2000,3000\n", ""), &["half-breadths up to 3000 are taken as millimetres"]);
     among(&notes("x,0.5,1\n0,1000,2000\n10,2000,3000\n", ""), &["heights up to 1 are taken as metres"]);
     among(&notes("x,0.5,1\n0,1,2\n10,2,3\n", ""), &["half-breadths up to 3 are taken as metres"]);
+}
+
+#[test]
+fn an_empty_table_is_an_empty_table_and_notes_are_no_errors() {
+    let to = folder("empty");
+    let file = to.join("empty.csv");
+    fs::write(&file, "").unwrap();
+    let done = program(&["hydro", file.to_str().unwrap(), "--json"]);
+    assert_eq!(done.status.code(), Some(3));
+    let json: serde_json::Value = serde_json::from_str(&stdout(&done)).unwrap();
+    let codes: Vec<&str> = json["error"].as_array().unwrap().iter().map(|e| e["code"].as_str().unwrap()).collect();
+    assert_eq!(codes, ["E300"], "{json}");
+    let bad = to.join("bad.csv");
+    fs::write(&bad, "x [m],1,2\n0,1,a\n5,1,2\n").unwrap();
+    let done = program(&["hydro", bad.to_str().unwrap(), "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&done)).unwrap();
+    let codes: Vec<&str> = json["error"].as_array().unwrap().iter().map(|e| e["code"].as_str().unwrap()).collect();
+    assert!(codes.contains(&"E301") && !codes.iter().any(|code| code.starts_with('N')), "{codes:?}");
 }

@@ -53,7 +53,8 @@ fn wanted(text: &str) -> Result<(&'static str, f64), String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut entries = catalogue(arguments.catalogue.as_deref())?;
+    let (mut entries, left_out) = catalogue(arguments.catalogue.as_deref())?;
+    left_out.iter().for_each(|line| stream::message(line));
     if let Some(name) = &arguments.name {
         entries.retain(|entry| entry.name == *name);
         let file = catalogue_file(name);

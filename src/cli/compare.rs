@@ -22,6 +22,8 @@ pub(super) struct Arguments {
     draught: Option<f64>,
     #[command(flatten)]
     conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
     /// Folder for compare.md, compare.csv, compare.json, the figures and manifest.json
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -47,7 +49,7 @@ of the mean square and the mean are printed.";
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let job = CompareJob {
         hulls: [arguments.first.clone(), arguments.second.clone()],
-        overrides: arguments.conventions.overrides(),
+        overrides: arguments.stations.with(&arguments.conventions),
         draught: arguments.draught,
     };
     let outputs = compare_outputs(&job)?;

@@ -81,6 +81,8 @@ pub(super) struct Arguments {
     #[command(flatten)]
     conventions: super::BodyFlags,
     #[command(flatten)]
+    stations: super::StationFlags,
+    #[command(flatten)]
     files: RunFiles,
     #[command(flatten)]
     figures: Figures,
@@ -140,7 +142,7 @@ impl Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let overrides = arguments.conventions.overrides();
+    let overrides = arguments.stations.with(&arguments.conventions);
     let job = read_derive_job(&arguments.parent, arguments.wanted()?, overrides, arguments.limits)?;
     let folder = arguments.files.folder(&arguments.parent, false);
     let mut read = source_files(&job.parent);

@@ -162,6 +162,7 @@ impl Output {
             ))),
             (Some(found), []) => Ok(Self::file(output, name, found)),
             (Some(found), [format]) if found == *format => Ok(Self::file(output, name, found)),
+            (Some(ExportFormat::Stl), [ExportFormat::StlAscii]) => Ok(Self::file(output, name, ExportFormat::StlAscii)),
             _ => Ok(Self { folder: output.clone(), file: None, formats }),
         }
     }

@@ -21,6 +21,8 @@ pub(super) struct Arguments {
     hull: PathBuf,
     #[command(flatten)]
     conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
     /// Frames, from AP [m], as 1:9:0.5 [default: the stations of the hull]
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     frames: Option<Lengths>,
@@ -30,10 +32,10 @@ pub(super) struct Arguments {
     /// On which side of the moulded surface the skin lies: inside or outside
     #[arg(long, value_parser = side, value_name = "SIDE", default_value = "inside", requires = "thickness")]
     side: SkinSide,
-    /// Waterlines at which half-breadths and bevels are given [default: about eight]
+    /// Waterlines at which half-breadths and bevels are given [default: those of tables of the hull]
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     waterlines: Option<Lengths>,
-    /// Buttocks at which heights are given [default: about four]
+    /// Buttocks at which heights are given [default: those of tables of the hull]
     #[arg(long, value_parser = lengths, value_name = "LIST")]
     buttocks: Option<Lengths>,
     /// Drawings, with commas between them: svg, dxf, pdf
@@ -83,7 +85,7 @@ fn format(text: &str) -> Result<LoftFormat, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
+    let source = read_source_with(&arguments.hull, &arguments.stations.with(&arguments.conventions))?;
     source.notes.iter().for_each(|note| stream::message(note));
     let hull = &source.hull;
     let of = |list: &Option<Lengths>| list.as_ref().map(|Lengths(list)| list.clone());

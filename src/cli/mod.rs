@@ -131,7 +131,7 @@ struct BodyFlags {
     /// Whether a mesh or a CAD file has one side of the hull (half) or all of it (whole)
     #[arg(long, value_name = "PART", value_parser = ["half", "whole"])]
     body: Option<String>,
-    /// Parts of a body that count, with commas between them: groups, solids or layers by name, shells by number
+    /// Parts of a body that count, with commas between them: groups of OBJ, solids of STL and layers of FREE!ship by name, shells by number
     #[arg(long, value_name = "PARTS")]
     parts: Option<String>,
     /// Distance between the numbers of stations of a table

@@ -91,6 +91,8 @@ pub(super) struct Arguments {
     viscosity: Option<f64>,
     #[command(flatten)]
     conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
     /// Folder for resistance.csv, resistance.json, the figure and manifest.json
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -254,7 +256,7 @@ fn options(arguments: &Arguments) -> ResistanceOptions {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let job = ResistanceJob {
         hull: arguments.hull.clone(),
-        overrides: arguments.conventions.overrides(),
+        overrides: arguments.stations.with(&arguments.conventions),
         draught: arguments.draught,
         speeds: arguments.speeds.0.clone(),
         method: match arguments.method {

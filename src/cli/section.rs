@@ -16,6 +16,8 @@ pub(super) struct Arguments {
     #[command(flatten)]
     conventions: super::BodyFlags,
     #[command(flatten)]
+    stations: super::StationFlags,
+    #[command(flatten)]
     plane: Plane,
     /// Largest distance between the points' chords and the curve [m]
     #[arg(long, value_parser = deviation, default_value = "1 mm", value_name = "LENGTH")]
@@ -74,7 +76,7 @@ impl Plane {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
+    let source = read_source_with(&arguments.hull, &arguments.stations.with(&arguments.conventions))?;
     source.notes.iter().for_each(|note| stream::message(note));
     let cut = arguments.plane.cut().ok_or_else(|| Failure::Internal("no plane".to_owned()))?;
     let section = sections_of(&source.hull, cut);

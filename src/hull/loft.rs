@@ -20,11 +20,17 @@ const ROUNDS: usize = 40;
 /// Parts of a span of knots in each of which a frame may begin or end.
 const PARTS: usize = 8;
 
+/// Heights and breadths nearer to each other are one \[m\].
+const ROUNDING: f64 = 1e-7;
+
 /// Halvings by which the end of a frame between two knots is found.
 const HALVINGS: usize = 50;
 
 /// Ends nearer to each other than this part of the offset touch.
 const TOUCHING: f64 = 1e-2;
+
+/// Parts of a frame that are nowhere further from the centreplane than this part of the breadth are none.
+const LEAST: f64 = 1e-5;
 
 /// Lines are produced by this many thicknesses at most.
 const PRODUCED: f64 = 6.0;
@@ -89,7 +95,9 @@ impl LoftedFrame {
 fn crossing(pair: &[FramePoint], value: f64, of: fn(&FramePoint) -> f64) -> Option<FramePoint> {
     let (a, b) = (of(&pair[0]), of(&pair[1]));
     if (a - value) * (b - value) > 0.0 {
-        return None;
+        // An end that rounding leaves off it.
+        let near = if (a - value).abs() < (b - value).abs() { 0 } else { 1 };
+        return ((of(&pair[near]) - value).abs() <= ROUNDING).then(|| pair[near]);
     }
     let share = if (b - a).abs() > 0.0 { (value - a) / (b - a) } else { 0.0 };
     Some(pair[0].between(&pair[1], share))
@@ -265,20 +273,30 @@ fn joined(mut below: Vec<FramePoint>, above: Vec<FramePoint>, offset: f64) -> Ve
         below.extend(above);
         return below;
     }
-    if let ([.., a, b], [c, d, ..]) = (&below[..], &above[..])
-        && let Some([forward, back]) = meeting([a, b], [d, c])
+    let reach = PRODUCED * offset.abs();
+    // Tangents are those of points that are not too near to the ends.
+    let apart = |from: &FramePoint, to: &&FramePoint| from.distance(to) > 1e-9 + TOUCHING * offset.abs();
+    if let (Some(b), Some(c)) = (below.last().copied(), above.first().copied())
+        && let Some(a) = below.iter().rev().find(|point| apart(&b, point))
+        && let Some(d) = above.iter().find(|point| apart(&c, point))
+        && let Some([forward, back]) = meeting([a, &b], [d, &c])
     {
-        let corner = a.between(b, forward);
-        let reach = PRODUCED * offset.abs();
-        if forward >= 1.0 && back >= 1.0 && corner.distance(b) <= reach && corner.distance(c) <= reach {
+        let corner = a.between(&b, forward);
+        if forward >= 1.0 && back >= 1.0 && corner.distance(&b) <= reach && corner.distance(&c) <= reach {
             let (before, after) = (FramePoint { bevel: b.bevel, ..corner }, FramePoint { bevel: c.bevel, ..corner });
             below.extend([before, after]);
             below.extend(above);
             return below;
         }
     }
-    // Neither crosses the other, nor is there a gap: the longer line has swallowed the shorter.
-    if long(&above) >= long(&below) { above } else { below }
+    // Neither crosses the other, nor is there a gap: a line that is short beside the offset is swallowed by the other.
+    if long(&below) <= reach && long(&below) <= long(&above) {
+        return above;
+    }
+    if long(&above) > reach {
+        below.extend(above);
+    }
+    below
 }
 
 /// A line without the loops that the face inside a bend tighter than its distance makes.
@@ -302,8 +320,9 @@ fn without_loops(points: &[FramePoint]) -> Vec<FramePoint> {
     kept
 }
 
-/// The longest part of a line on its side of the centreplane, from there, or produced to there where it begins beside it.
-fn from_centreplane(points: &[FramePoint]) -> Vec<FramePoint> {
+/// The parts of a line on its side of the centreplane, by at least `least` \[m\] somewhere. A line that begins less than a
+/// reach beside the centreplane is produced to it.
+fn from_centreplane(points: &[FramePoint], least: f64, reach: f64) -> Vec<Vec<FramePoint>> {
     let mut parts: Vec<Vec<FramePoint>> = vec![Vec::new()];
     for (k, point) in points.iter().enumerate() {
         let before = k.checked_sub(1).map(|before| points[before]);
@@ -315,19 +334,21 @@ fn from_centreplane(points: &[FramePoint]) -> Vec<FramePoint> {
         }
         parts.last_mut().into_iter().for_each(|part| part.push(*point));
     }
-    let is_outside = |part: &&Vec<FramePoint>| part.iter().any(|point| point.y > 0.0);
-    let longest = parts.iter().filter(is_outside).max_by(|a, b| long(a).total_cmp(&long(b)));
-    let Some(mut points) = longest.cloned() else { return Vec::new() };
-    if let [first, second, ..] = points[..]
+    parts.retain(|part| part.iter().any(|point| point.y > least));
+    // Beside the longest, a part that is short beside the offset lies within the skin.
+    let longest = parts.iter().map(|part| long(part)).fold(0.0, f64::max);
+    parts.retain(|part| long(part) > reach || long(part) >= longest);
+    if let Some(&[first, second, ..]) = parts.first().map(Vec::as_slice)
         && first.y > 0.0
+        && first.y <= reach
     {
         let share = first.y / (first.y - second.y);
         let produced = first.between(&second, share);
         let falls = share.is_finite() && share <= 0.0 && produced.distance(&first) <= 2.0 * first.y;
         let z = if falls { produced.z } else { first.z };
-        points.insert(0, FramePoint { y: 0.0, z, bevel: first.bevel });
+        parts[0].insert(0, FramePoint { y: 0.0, z, bevel: first.bevel });
     }
-    points
+    parts
 }
 
 /// The length of a line \[m\].
@@ -360,13 +381,15 @@ impl Hull {
     #[must_use]
     pub fn lofted_frame(&self, x: f64, offset: f64, deviation: f64) -> Option<LoftedFrame> {
         let lofting = Lofting { hull: self, x, offset, deviation };
-        let line = |pieces: Vec<Vec<FramePoint>>| {
-            let whole = pieces.into_iter().reduce(|below, above| joined(below, above, offset))?;
+        let (least, reach) = (LEAST * self.particulars().breadth, 1e-6 + PRODUCED * offset.abs());
+        let lines = |pieces: Vec<Vec<FramePoint>>| {
+            let whole = pieces.into_iter().reduce(|below, above| joined(below, above, offset)).unwrap_or_default();
             let whole = if offset.abs() > 0.0 { without_loops(&whole) } else { whole };
-            let outside = from_centreplane(&whole);
-            Some(below(outside, self.deck_height(x), 2.0 * offset.abs())).filter(|points| points.len() > 1)
+            let to_deck = |part| below(part, self.deck_height(x), ROUNDING + 2.0 * offset.abs());
+            let parts = from_centreplane(&whole, least, reach).into_iter().map(to_deck);
+            parts.filter(|points| points.len() > 1).collect::<Vec<_>>()
         };
-        let branches: Vec<Vec<FramePoint>> = lofting.branches().into_iter().filter_map(line).collect();
+        let branches: Vec<Vec<FramePoint>> = lofting.branches().into_iter().flat_map(lines).collect();
         (!branches.is_empty()).then_some(LoftedFrame { x, branches })
     }
 }

@@ -211,38 +211,48 @@ pub fn index_csv() -> Result<String, Failure> {
     String::from_utf8(bytes).map_err(|error| failed(&error))
 }
 
-/// The hulls that the program carries, and those of a folder.
+/// The hulls that the program carries, and those of a folder; and which files of the folder are left out, and why.
 ///
 /// # Errors
-/// [`Failure::FileSystem`] for a folder that cannot be read; what is wrong with a hull of it.
-pub fn catalogue(folder: Option<&Path>) -> Result<Vec<CatalogueEntry>, Failure> {
+/// [`Failure::FileSystem`] for a folder that cannot be read.
+pub fn catalogue(folder: Option<&Path>) -> Result<(Vec<CatalogueEntry>, Vec<String>), Failure> {
     let mut entries: Vec<CatalogueEntry> = csv::Reader::from_reader(INDEX.as_bytes())
         .deserialize()
         .collect::<Result<_, _>>()
         .map_err(|error| Failure::Internal(format!("index of the catalogue: {error}")))?;
-    let Some(folder) = folder else { return Ok(entries) };
+    let mut left_out = Vec::new();
+    let Some(folder) = folder else { return Ok((entries, left_out)) };
     let failed = |error| Failure::FileSystem { act: "read", path: folder.to_owned(), error };
     let mut files: Vec<PathBuf> =
         std::fs::read_dir(folder).map_err(failed)?.filter_map(|item| Some(item.ok()?.path())).collect();
     files.sort();
-    let is_hull = |path: &&PathBuf| {
+    for path in files.iter().filter(|path| path.is_file()) {
         // A TOML beside a table has its conventions.
         let beside = |ending: &str| path.with_extension(ending).is_file();
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-        path.is_file() && !(ending == "toml" && (beside("csv") || beside("xlsx"))) && !ending.is_empty()
-    };
-    for path in files.iter().filter(is_hull) {
+        if path.extension().is_some_and(|ending| ending == "toml") && (beside("csv") || beside("xlsx")) {
+            continue;
+        }
         let name = path.display().to_string();
-        entries.extend(entry(path, &name, ["", "the folder", ""])?);
+        match entry(path, &name, ["", "the folder", ""]) {
+            Ok(Some(entry)) => entries.push(entry),
+            Ok(None) => left_out.push(format!("{name} is left out: it states no draught")),
+            Err(error) => {
+                let text = error.to_string();
+                left_out.push(format!("{name} is left out: {}", text.lines().next().unwrap_or_default()));
+            }
+        }
     }
-    Ok(entries)
+    Ok((entries, left_out))
 }
 
 /// Entries with their distances from what is wanted, the nearest first; those that lack a particular last.
 #[must_use]
 pub fn ranked(entries: Vec<CatalogueEntry>, wanted: &[(&'static str, f64)]) -> Vec<(CatalogueEntry, Option<f64>)> {
-    let mut list: Vec<_> =
-        entries.into_iter().map(|entry| (entry.distance(wanted), entry)).map(|(d, e)| (e, d)).collect();
+    let mut list: Vec<_> = entries
+        .into_iter()
+        .map(|entry| (entry.distance(wanted).filter(|_| !wanted.is_empty()), entry))
+        .map(|(d, e)| (e, d))
+        .collect();
     list.sort_by(|a, b| a.1.unwrap_or(f64::INFINITY).total_cmp(&b.1.unwrap_or(f64::INFINITY)));
     list
 }

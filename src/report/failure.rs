@@ -108,7 +108,8 @@ impl Failure {
     fn entries(&self) -> Vec<Value> {
         match self {
             Self::Input(messages) | Self::Infeasible(messages) | Self::Options(messages) => {
-                messages.iter().map(entry).collect()
+                // Notes are no errors; they stand on stderr.
+                messages.iter().filter(|message| !message.code.starts_with('N')).map(entry).collect()
             }
             Self::Exists(paths) => {
                 let of = |path: &PathBuf| {

@@ -243,7 +243,7 @@ pub fn read_source_with(path: &Path, overrides: &Overrides) -> Result<Source, Fa
 pub(super) fn source_of(file: &Path, bytes: Vec<u8>, overrides: &Overrides) -> Result<Source, Failure> {
     let extension = ending(file);
     let first = bytes.iter().find(|b| !b.is_ascii_whitespace());
-    let is_json = extension == "json" || first.is_none_or(|&b| b == b'{');
+    let is_json = extension == "json" || first.is_some_and(|&b| b == b'{');
     if !is_json || extension == "gltf" {
         return fitted(file, &bytes, overrides);
     }

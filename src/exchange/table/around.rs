@@ -41,10 +41,12 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
         problems.error("E311", text, "heights count downward, and are not read so".to_owned(), UPWARD);
     }
     for text in texts().filter(|text| text.row > 0 && !text.text.starts_with('#')) {
-        settings.prose(text.trimmed(), problems);
+        settings.prose(text.trimmed());
     }
-    if let Some(text) = texts().chain(corner).find(|text| says_breadths(&text.text)).filter(|_| settings.full.is_none())
-    {
+    let says_half = corner.is_some_and(|text| text.text.to_lowercase().contains("half"));
+    let titles = texts().filter(|text| says_breadths(&text.text, false));
+    let open = titles.chain(corner.filter(|text| says_breadths(&text.text, true))).next();
+    if let Some(text) = open.filter(|_| settings.full.is_none() && !says_half) {
         problems.warning("W320", text.place(), half_taken(text.trimmed()), HALF_OR_FULL);
     }
 }
@@ -53,10 +55,13 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
 pub(super) const UPWARD: &str = "Give heights above the base line";
 
 /// Whether words say that numbers are breadths, and not whether half or full ones.
-fn says_breadths(text: &str) -> bool {
+fn says_breadths(text: &str, is_header: bool) -> bool {
     let lower = text.to_lowercase().replace(['-', '_'], " ");
     let mut words = lower.split(|c: char| !c.is_alphabetic());
-    let says = |word: &str| matches!(word, "breadth" | "breadths" | "beam" | "beams" | "width" | "widths");
+    // `Beam trawler` is the name of a ship.
+    let says = |word: &str| {
+        matches!(word, "breadths" | "widths" | "beams") || is_header && matches!(word, "breadth" | "beam" | "width")
+    };
     // `B`, `breadth moulded` and `beam 12 m` are dimensions.
     let has_number = lower.bytes().any(|b| b.is_ascii_digit());
     let is_dimension = has_number || lower.contains(['=', ':']) || lower.contains("mould") || lower.contains("mold");
@@ -74,7 +79,8 @@ fn unit_of_breadths(text: &str) -> Option<Notation> {
 /// Whether words say that breadths are full.
 pub(super) fn says_full(text: &str) -> bool {
     let lower = text.to_lowercase().replace(['-', '_'], " ");
-    ["full breadth", "full beam", "full width", "whole breadth"].iter().any(|words| lower.contains(words))
+    !lower.contains("half")
+        && ["full breadth", "full beam", "full width", "whole breadth"].iter().any(|words| lower.contains(words))
 }
 
 /// Comments that say what the row of units did, which is not written back.
@@ -101,7 +107,7 @@ fn dimensions(pieces: &Pieces, settings: &mut Settings, problems: &mut Problems)
     for (key, value) in &pieces.pairs {
         let bare = key.text.split(['[', '(', '=', ':']).next().unwrap_or_default();
         let text = format!("{} {}", bare.trim(), value.trimmed());
-        settings.prose(&text, problems);
+        settings.prose(&text);
         let Some(slot) = slot(&mut settings.stated, bare) else { continue };
         let unit = unit_of(key.trimmed()).unwrap_or(Notation::Metres);
         let length = match plain_number(&value.text) {

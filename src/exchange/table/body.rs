@@ -208,7 +208,7 @@ pub fn read_body<'a>(
         Shape::Triangles(mesh, given) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
-            if given.unit < 1.0 && settings.units.is_none() {
+            if kind == "GDF" && given.unit < 1.0 && settings.units.is_none() {
                 let message =
                     "the acceleration of gravity in the file is that in feet: coordinates are taken as feet".to_owned();
                 problems.warning("W320", FilePosition::FILE, message, "Say --input-unit m where they are metres");

@@ -12,6 +12,9 @@ use crate::units::counted;
 /// Distance of the lowest point from z = 0 over the height of the sections that is a warning.
 const OFF_BASE: f64 = 0.2;
 
+/// The lesser of the ends of a line of half-breadths over its greatest, at most.
+const TAPERED: f64 = 0.3;
+
 /// Most missing offsets that are named.
 const MOST_PLACES: usize = 6;
 
@@ -257,7 +260,16 @@ fn sides(table: &OffsetTable, problems: &mut Problems) {
         let all: Vec<bool> = table.stations.iter().filter_map(of).collect();
         (all.iter().filter(|wrong| **wrong).count(), all.len())
     };
-    for ((wrong, all), what) in [(count(&above), "deck at side lies below"), (count(&below), "keel lies above")] {
+    // Half-breadths fall to the ends; heights of a deck do not, and those of a keel rise to them.
+    let heights = |of: fn(&StationOffsets) -> Option<f64>| table.stations.iter().filter_map(of).collect::<Vec<f64>>();
+    let tapers = |list: Vec<f64>| match list[..] {
+        [first, .., last] => first.min(last) < TAPERED * list.iter().copied().fold(0.0, f64::max),
+        _ => false,
+    };
+    let deck = tapers(heights(|s| s.deck_height));
+    let keel = tapers(heights(|s| s.keel_height));
+    let all = [(count(&above), deck, "deck at side lies below"), (count(&below), keel, "keel lies above")];
+    for ((wrong, all), _, what) in all.into_iter().filter(|(_, tapers, _)| *tapers) {
         if 2 * wrong > all {
             let message = format!("at {wrong} of {all} stations the {what} waterlines that have half-breadths there");
             let remedy = "Name the line for what its numbers are: these names are of heights above the base line";

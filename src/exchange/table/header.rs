@@ -182,7 +182,16 @@ pub(super) fn side_name(kind: SideKind) -> &'static str {
 
 /// Whether words say that heights count downward: `depth below DWL`, `z down`. What stands in brackets does not count.
 pub(super) fn counts_down(text: &str) -> bool {
-    let bare: String = text.split(['(', '[']).next().unwrap_or_default().to_owned();
+    let mut depth = 0_usize;
+    let outside = |c: &char| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ => return depth == 0,
+        }
+        false
+    };
+    let bare: String = text.chars().filter(outside).collect();
     let words = words(&bare);
     let is_height = |word: &str| matches!(word, "depth" | "depths" | "height" | "heights" | "z");
     let is_down = |word: &str| matches!(word, "below" | "under" | "beneath" | "down" | "downward" | "downwards");
@@ -262,10 +271,21 @@ impl Corner {
         // `Distance from stem`, and `x aft`.
         let first = |after: &str| words(after).into_iter().find(|word| word != "the");
         let behind = lower.split_once(" from ").and_then(|(_, after)| From::end_of(&first(after)?));
-        let aft = rows.is_some_and(Axis::is_station) && words(bare).last().is_some_and(|word| word == "aft");
+        let aft = rows.is_some_and(Axis::is_station) && words(bare).len() == 2 && words(bare)[1] == "aft";
         let from = From::of(text).or(behind).or(aft.then_some(From::ForePerpendicular));
         let signs = ["+ aft", "+aft", "aft +", "positive aft", "aft positive", "+ve aft"];
-        let aftward = signs.iter().any(|words| lower.contains(words));
+        let forward = [
+            "fwd +",
+            "forward +",
+            "+ fwd",
+            "+ forward",
+            "forward positive",
+            "positive forward",
+            "aft -",
+            "aft negative",
+        ];
+        let contains = |any: &[&str]| any.iter().any(|words| lower.contains(words));
+        let aftward = contains(&signs) && !contains(&forward);
         Self { rows, columns, unit, from, aftward, spaces: spaces.filter(|&n: &f64| n > 0.0) }
     }
 }

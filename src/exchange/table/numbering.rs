@@ -2,7 +2,7 @@
 
 use super::header::{Axis, Coordinate, Corner, From, Position};
 use super::problem::{FilePosition, Problems};
-use super::settings::{Settings, StationScale};
+use super::settings::{Settings, StationScale, metres};
 use crate::hull::StationDatum;
 
 /// Spaces between perpendiculars that drawings have.
@@ -136,7 +136,18 @@ pub(super) fn origin(
     let (low, high) = numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
     let named = heads.iter().filter(|p| p.named || p.axis == Some(Axis::Station)).count();
     let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
-    let scale = settings.stations.unwrap_or_else(|| {
+    // A sentence counts where no key and no header says it.
+    let said = settings.sentences.stations.as_ref().filter(|(scale, _)| {
+        let is_open = settings.stations.is_none() && corner.from.is_none();
+        is_open && (!scale.numbers || says != Some(Axis::X))
+    });
+    if let Some((scale, words)) = said.filter(|(scale, _)| scale.numbers || scale.from != From::AftPerpendicular) {
+        let what = if scale.numbers { "numbered" } else { "given by their distances" };
+        let message = format!("'{words}' says that stations are {what} from {}", scale.from.as_str());
+        problems.warning("W320", FilePosition::FILE, message, "Give stations in the conventions if it does not");
+    }
+    let stated = settings.stations.or(said.map(|(scale, _)| *scale));
+    let scale = stated.unwrap_or_else(|| {
         let are_numbers = match says {
             Some(Axis::Station) if corner.unit.is_none() => true,
             Some(Axis::X) => false,
@@ -151,7 +162,7 @@ pub(super) fn origin(
         let are_numbers = are_numbers || shows_numbers(&heads, length);
         StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers: are_numbers }
     });
-    let is_stated = settings.stations.is_some() || settings.units.or(settings.x_units).or(corner.unit).is_some();
+    let is_stated = stated.is_some() || settings.units.or(settings.x_units).or(corner.unit).is_some();
     let is_short = high - low < 2.0 * SHORT * breadths.largest;
     if !scale.numbers && !is_stated && says != Some(Axis::X) && is_short && counts(&numbers, [low, high]) {
         let message = format!(
@@ -171,7 +182,7 @@ pub(super) fn origin(
     let [aft, fore] = [From::AftPerpendicular, From::ForePerpendicular].map(|end| number_of(&heads, end));
     let between = aft.zip(fore).map(|(aft, fore)| (fore - aft).abs()).filter(|spaces| *spaces > 0.0);
     let spacing = spacing(settings, corner, (between, [low, high]), problems);
-    let is_open = settings.stations.is_none() && corner.from.is_none();
+    let is_open = stated.is_none() && corner.from.is_none();
     let by_ends = counted_from(aft, fore, [low, high]).filter(|_| is_open);
     let rises = numbers.first() < numbers.last();
     let by_breadths = breadths
@@ -180,9 +191,10 @@ pub(super) fn origin(
         .map(|begins_full| if begins_full == rises { From::AftPerpendicular } else { From::ForePerpendicular });
     if is_open && by_ends.is_none() {
         let end = if by_breadths == Some(From::ForePerpendicular) { "FP" } else { "AP" };
+        let zero = if begins_with_one([low, high]) { 1 } else { 0 };
         let why = by_breadths.map_or("", |_| ", because the fuller end is the stern");
         let message = format!(
-            "stations are numbered, and nothing says from which end: {low} is taken as {end}{why}. From the other end the hull is \
+            "stations are numbered, and nothing says from which end: {zero} is taken as {end}{why}. From the other end the hull is \
              turned about, and LCB changes its sign"
         );
         let remedy = "Give stations = \"numbers from AP\" or \"numbers from FP\" in the conventions";
@@ -281,6 +293,17 @@ fn spacing(
     match (settings.station_spacing, settings.stated.length_between_perpendiculars, spaces) {
         (Some(spacing), _, _) => {
             problems.note(format!("stations are numbered; {spacing} m from one number to the next"));
+            spacing
+        }
+        (None, length, spaces) if (length.is_none() || spaces.is_none()) && settings.sentences.spacing.is_some() => {
+            let (spacing, words) = settings.sentences.spacing.clone().unwrap_or_default();
+            let message = format!("'{words}' says that stations are {} m apart", metres(spacing));
+            problems.warning(
+                "W320",
+                FilePosition::FILE,
+                message,
+                "Give station_spacing in the conventions if it does not",
+            );
             spacing
         }
         (None, Some(length), Some(spaces)) => {

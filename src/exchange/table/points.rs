@@ -112,7 +112,8 @@ pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<R
     own.comments(&text.lines().enumerate().filter_map(of_line).collect::<Vec<_>>(), &mut problems);
     settings.stated = settings.stated.over(&own.stated);
     settings.units = settings.units.or(own.units);
-    settings.stations = settings.stations.or(own.stations);
+    let said = own.sentences.stations.map(|(scale, _)| scale).filter(|scale| !scale.numbers);
+    settings.stations = settings.stations.or(own.stations).or(said);
     let mark = head(text).map_or(',', |(mark, _)| mark);
     let pointed = pointed(text, mark);
     let text = pointed.as_ref();

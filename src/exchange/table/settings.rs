@@ -49,7 +49,7 @@
 //! a comment, but for what it says of stations: `# Stations 3 ft apart`, `# Stations numbered from FP`.
 
 use super::header::From;
-use super::problem::{Field, FilePosition, Problems};
+use super::problem::{Field, Problems};
 use crate::hull::{FeatureLine, Rows, StatedParticulars, TableLayout, TransomPlane};
 use crate::units::{Notation, parse_length};
 
@@ -87,6 +87,16 @@ pub(super) struct Settings {
     pub(super) lines: Vec<FeatureLine>,
     /// How a body lies in its file.
     pub(super) frame: BodyFrame,
+    /// What sentences beside the numbers say, where nothing else does.
+    pub(super) sentences: Sentences,
+}
+
+/// What sentences say of stations, each with its words.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Sentences {
+    /// Distance from one number to the next \[m\].
+    pub(super) spacing: Option<(f64, String)>,
+    pub(super) stations: Option<(StationScale, String)>,
 }
 
 /// A part of a body that is chosen.
@@ -184,7 +194,7 @@ impl Settings {
     pub(super) fn comments(&mut self, comments: &[(usize, String)], problems: &mut Problems) {
         for (row, comment) in comments.iter().flat_map(|(row, comment)| parts(comment).map(move |part| (row, part))) {
             let Some((key, value)) = comment.split_once('=') else {
-                self.prose(comment, problems);
+                self.prose(comment);
                 continue;
             };
             let (key, value) = (key.trim(), value.trim().trim_matches('"'));
@@ -210,24 +220,15 @@ impl Settings {
     }
 
     /// Takes what a sentence says of stations: "Stations 3 ft apart", "Station spacing: 5 m", "Stations are numbered from the
-    /// forward perpendicular", "station 0 is at FP", "x from FP". It says so.
-    pub(super) fn prose(&mut self, comment: &str, problems: &mut Problems) {
+    /// forward perpendicular", "station 0 is at FP", "x from FP".
+    pub(super) fn prose(&mut self, comment: &str) {
         let lower = comment.to_lowercase().replace("f.p.", "fp").replace("a.p.", "ap");
-        let remedy = "Give station_spacing, or stations, in the conventions if it does not";
-        if self.station_spacing.is_none()
-            && let Some(spacing) = spacing(&lower)
-        {
-            self.station_spacing = Some(spacing);
-            let message = format!("'{}' says that stations are {} m apart", comment.trim(), metres(spacing));
-            problems.warning("W320", FilePosition::FILE, message, remedy);
+        let Sentences { spacing: known, stations } = &mut self.sentences;
+        if let (None, Some(found)) = (&known, spacing(&lower)) {
+            *known = Some((found, comment.trim().to_owned()));
         }
-        if self.stations.is_none()
-            && let Some(scale) = counted_from(&lower)
-        {
-            self.stations = Some(scale);
-            let what = if scale.numbers { "numbered" } else { "given by their distances" };
-            let message = format!("'{}' says that stations are {what} from {}", comment.trim(), scale.from.as_str());
-            problems.warning("W320", FilePosition::FILE, message, remedy);
+        if let (None, Some(found)) = (&stations, counted_from(&lower)) {
+            *stations = Some((found, comment.trim().to_owned()));
         }
     }
 
@@ -324,36 +325,48 @@ fn counted_from(lower: &str) -> Option<StationScale> {
     let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
     let stations = ["station", "stations", "ordinate", "ordinates", "section", "sections"];
     // "station 0 is at FP", "stations are numbered from FP".
-    let is_zero = words.windows(2).any(|pair| stations.contains(&pair[0]) && pair[1] == "0");
-    if is_zero || has(&stations) && has(&["numbered"]) {
-        let from = after("from").and_then(end).or_else(|| after("at").and_then(end))?;
+    let zero = words.windows(2).position(|pair| stations.contains(&pair[0]) && pair[1] == "0");
+    if let Some(zero) = zero {
+        let at = zero + 2 + words[zero + 2..].iter().take(2).position(|word| *word == "at")?;
+        return Some(StationScale { from: end(&words[at + 1..])?, numbers: true });
+    }
+    if has(&stations) && has(&["numbered"]) {
+        let from = after("from").and_then(end)?;
         return Some(StationScale { from, numbers: true });
     }
-    // "x from FP, positive aft", "Distances from the stem", "Origin at FP".
-    let from = if starts(&["x", "distance", "distances", "positions", "abscissae"]) {
-        after("from").and_then(end)?
-    } else if starts(&["origin"]) {
-        after("at").and_then(end)?
+    // "x from FP, positive aft", "Distances from the stem", "Origin at FP"; not "Distance from FP to AP".
+    let at_second = |word: &str| words.get(1) == Some(&word);
+    let from = if starts(&["x", "distance", "distances", "positions", "abscissae"]) && at_second("from") {
+        end(&words[2..]).filter(|_| !words[2..].iter().take(4).any(|word| *word == "to"))?
+    } else if starts(&["origin"]) && at_second("at") {
+        end(&words[2..])?
     } else {
         return None;
     };
     Some(StationScale { from, numbers: false })
 }
 
-/// The distance between stations in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 5 m".
+/// The distance between stations in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in".
 fn spacing(lower: &str) -> Option<f64> {
     let length = |words: &[&str]| parse_length(&words.join(" ")).ok().filter(|l| *l > 0.0 && l.is_finite());
-    if let Some((before, _)) = lower.split_once(" apart").filter(|(before, _)| before.contains("station")) {
+    let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
+    if let Some((before, _)) = lower.split_once(" apart") {
         let words: Vec<&str> = before.split_whitespace().collect();
-        return (1..=2).rev().filter_map(|count| words.get(words.len().checked_sub(count)?..)).find_map(length);
+        // The number follows the stations, or stands one word behind them.
+        let at = words.iter().rposition(|word| matches!(word.trim_end_matches(','), "station" | "stations"))?;
+        let from = at + 1 + words[at + 1..].iter().take(2).position(is_number)?;
+        return length(&words[from..]);
     }
-    let after = ["station spacing", "stations spacing", "spacing of stations", "spacing of the stations"]
-        .iter()
-        .find_map(|known| lower.split_once(known))?
-        .1;
-    let words: Vec<&str> = after.split([' ', ':', '=', ',', ';', '\t']).filter(|word| !word.is_empty()).collect();
-    let from = words.iter().position(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
-    (1..=2).rev().filter_map(|count| words.get(from..from + count)).find_map(length)
+    let known = ["station spacing", "stations spacing", "spacing of stations", "spacing of the stations"];
+    let after = known.iter().find_map(|known| lower.split_once(known))?.1;
+    let words: Vec<&str> = after.split([' ', ':', '=', ',', '\t']).filter(|word| !word.is_empty()).collect();
+    let from = words.iter().take(2).position(is_number)?;
+    // A number alone is all that is left of the sentence.
+    (1..=4)
+        .rev()
+        .filter_map(|count| words.get(from..from + count))
+        .filter(|list| list.len() > 1 || words.len() == from + 1)
+        .find_map(length)
 }
 
 /// The parts `key = value` of a comment, divided by commas or semicolons; the whole where any part is no such thing.
