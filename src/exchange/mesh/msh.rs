@@ -69,11 +69,6 @@ struct File<'a> {
 }
 
 impl File<'_> {
-    fn fault(&mut self, found: &str, message: &str) -> Option<()> {
-        self.numbers.faults.add(self.numbers.place(), found, message.to_owned());
-        None
-    }
-
     fn read(&mut self) -> Option<()> {
         let mut is_new = None;
         while let Some(line) = self.numbers.rest_of_line() {
@@ -84,12 +79,12 @@ impl File<'_> {
                 ("Nodes", Some(false)) => self.nodes()?,
                 ("Elements", Some(true)) => self.blocks_of_elements()?,
                 ("Elements", Some(false)) => self.elements()?,
-                ("Nodes" | "Elements", None) => return self.fault(line, "expected $MeshFormat before it"),
+                ("Nodes" | "Elements", None) => return self.numbers.fault(line, "expected $MeshFormat before it"),
                 _ => {}
             }
             self.numbers.coding = Coding::Text;
             if !self.numbers.skip_past(&format!("$End{name}")) {
-                return self.fault(line, "the file ends within this part");
+                return self.numbers.fault(line, "the file ends within this part");
             }
         }
         Some(())
@@ -105,7 +100,7 @@ impl File<'_> {
             _ => None,
         };
         if is_new.is_none() {
-            self.fault(line, "expected version 2.2 or 4.1, with reals of 8 bytes");
+            self.numbers.fault(line, "expected version 2.2 or 4.1, with reals of 8 bytes");
         }
         if words.get(1) == Some(&"1") {
             // The number 1 tells the order of bytes.
@@ -119,7 +114,7 @@ impl File<'_> {
     fn count(&mut self, bytes: usize, what: &str) -> Option<usize> {
         let line = self.numbers.rest_of_line().unwrap_or_default();
         let Ok(count) = line.parse() else {
-            self.fault(line, &format!("expected the number of {what}"));
+            self.numbers.fault(line, &format!("expected the number of {what}"));
             return None;
         };
         self.numbers.holds(count, bytes, what).then_some(count)
@@ -171,7 +166,7 @@ impl File<'_> {
         let found = kind.checked_sub(1).and_then(|k| ELEMENTS.get(k)).copied();
         if found.is_none() {
             let message = "elements of this kind are not read; write those of first or second order";
-            self.fault(&format!("kind {kind}"), message);
+            self.numbers.fault(&format!("kind {kind}"), message);
         }
         found
     }
@@ -185,7 +180,7 @@ impl File<'_> {
         let mut places = Vec::with_capacity(nodes.len());
         for node in nodes {
             let Some(place) = self.places.get(node) else {
-                return self.fault(&node.to_string(), "no node of this number");
+                return self.numbers.fault(&node.to_string(), "no node of this number");
             };
             places.push(*place);
         }
@@ -201,11 +196,11 @@ impl File<'_> {
             if self.coding == Coding::Text {
                 let line = self.numbers.line_of(0, &what)?;
                 let (Some(&kind), Some(&tags)) = (line.get(1), line.get(2)) else {
-                    return self.fault(&what, "expected its number, its kind and the number of its tags");
+                    return self.numbers.fault(&what, "expected its number, its kind and the number of its tags");
                 };
                 let (long, dimension) = self.kind(kind)?;
                 let Some(nodes) = line.get(3 + tags..).filter(|nodes| nodes.len() == long) else {
-                    return self.fault(&what, &format!("expected {long} nodes"));
+                    return self.numbers.fault(&what, &format!("expected {long} nodes"));
                 };
                 let nodes = nodes.to_vec();
                 self.element(dimension, &nodes)?;
@@ -215,7 +210,7 @@ impl File<'_> {
             let [kind, many, tags] = self.three(&what)?;
             let (long, dimension) = self.kind(kind)?;
             if many == 0 || !self.numbers.holds(many, 4 * (1 + long), "elements") {
-                return self.fault(&what, "no elements of a kind");
+                return self.numbers.fault(&what, "no elements of a kind");
             }
             for _ in 0..many {
                 (0..=tags).try_for_each(|_| self.numbers.skip(INTEGER, &what))?;

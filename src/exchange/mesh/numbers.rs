@@ -193,6 +193,12 @@ impl<'a> Numbers<'a> {
         Some(list)
     }
 
+    /// Adds a fault at the word read last; nothing can be read from there on.
+    pub(super) fn fault(&mut self, found: &str, message: &str) -> Option<()> {
+        self.faults.add(self.place(), found, message.to_owned());
+        None
+    }
+
     /// The line of a fault: that of the word read last in a text.
     pub(super) fn place(&self) -> Option<usize> {
         (self.coding == Coding::Text).then_some(self.last)

@@ -56,15 +56,10 @@ struct File<'a> {
 }
 
 impl File<'_> {
-    fn fault(&mut self, found: &str, message: &str) -> Option<()> {
-        self.numbers.faults.add(self.numbers.place(), found, message.to_owned());
-        None
-    }
-
     fn kind(&mut self, name: &str) -> Option<Kind> {
         let kind = KINDS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind);
         if kind.is_none() {
-            self.fault(name, "no kind of numbers that is read");
+            self.numbers.fault(name, "no kind of numbers that is read");
         }
         kind
     }
@@ -76,7 +71,7 @@ impl File<'_> {
         let coding = match self.numbers.rest_of_line()? {
             "ASCII" => Coding::Text,
             "BINARY" => Coding::BigEndian,
-            other => return self.fault(other, "expected ASCII or BINARY"),
+            other => return self.numbers.fault(other, "expected ASCII or BINARY"),
         };
         let mut lists = Vec::new();
         let mut kinds = Vec::new();
@@ -84,7 +79,7 @@ impl File<'_> {
             let words: Vec<&str> = line.split_whitespace().collect();
             match words[..] {
                 ["DATASET", "POLYDATA" | "UNSTRUCTURED_GRID"] => {}
-                ["DATASET", other] => return self.fault(other, "expected POLYDATA or UNSTRUCTURED_GRID"),
+                ["DATASET", other] => return self.numbers.fault(other, "expected POLYDATA or UNSTRUCTURED_GRID"),
                 // Between blank lines.
                 ["METADATA"] => while self.numbers.rest_of_line().is_some_and(|line| !line.is_empty()) {},
                 ["POINTS", count, kind] => {
@@ -106,14 +101,14 @@ impl File<'_> {
                 }
                 ["POINT_DATA" | "CELL_DATA", ..] => break,
                 // What a file says of all of it.
-                ["FIELD", ..] => return self.fault(line, "fields before the points are not read"),
+                ["FIELD", ..] => return self.numbers.fault(line, "fields before the points are not read"),
                 _ => {}
             }
         }
         for (name, list) in lists {
             if name == CELLS && kinds.len() != list.len() {
                 let message = format!("{} kinds of {} cells", kinds.len(), list.len());
-                return self.fault("CELL_TYPES", &message);
+                return self.numbers.fault("CELL_TYPES", &message);
             }
             for (k, nodes) in list.iter().enumerate() {
                 let number = match name.as_str() {
@@ -138,7 +133,7 @@ impl File<'_> {
     fn count(&mut self, word: &str) -> Option<usize> {
         let count = word.parse().ok();
         if count.is_none() {
-            self.fault(word, "expected a whole number");
+            self.numbers.fault(word, "expected a whole number");
         }
         count
     }
@@ -176,7 +171,7 @@ impl File<'_> {
         for _ in 0..count {
             let cell = rest.split_first().and_then(|(long, rest)| rest.split_at_checked(*long));
             let Some((nodes, after)) = cell else {
-                self.fault(&size.to_string(), "fewer numbers than the cells need");
+                self.numbers.fault(&size.to_string(), "fewer numbers than the cells need");
                 return None;
             };
             list.push(nodes.to_vec());
@@ -198,7 +193,7 @@ impl File<'_> {
             let kind = match line.split_whitespace().collect::<Vec<_>>()[..] {
                 [found, kind] if found == name => self.kind(kind)?,
                 _ => {
-                    self.fault(line, &format!("expected {name} and the kind of its numbers"));
+                    self.numbers.fault(line, &format!("expected {name} and the kind of its numbers"));
                     return None;
                 }
             };
@@ -208,7 +203,7 @@ impl File<'_> {
         let cells: Option<_> =
             offsets.windows(2).map(|ends| nodes.get(ends[0]..ends[1]).map(<[usize]>::to_vec)).collect();
         if cells.is_none() {
-            self.fault("OFFSETS", "a cell that ends before it begins, or after the last of the points");
+            self.numbers.fault("OFFSETS", "a cell that ends before it begins, or after the last of the points");
         }
         cells
     }
