@@ -301,3 +301,60 @@ fn limits_are_printed_where_they_are_asked_for() {
         assert!(low <= achieved * (1.0 + 1e-9) && achieved <= high * (1.0 + 1e-9), "{target}");
     }
 }
+
+/// A heavier weight of the wave resistance lowers it and costs bending; targets stay exact, and R_W is that of the daughter.
+#[test]
+fn the_wave_resistance_falls_as_its_weight_rises() {
+    let options = [("--wave-resistance", "wave_resistance", "0.30:0.34:0.02".to_owned())];
+    let outputs = derived("wigley", &options);
+    let waves = outputs.derived.waves.as_ref().unwrap();
+    assert_eq!((waves.trades.len(), waves.froude_numbers.len()), (7, 3));
+    for pair in waves.trades.windows(2) {
+        assert!(pair[1].ratio < pair[0].ratio + 1e-9 && pair[1].energy > pair[0].energy - 1e-12, "{pair:?}");
+        // Each is the least of J + w R of its own weight.
+        for (this, other) in [(pair[0], pair[1]), (pair[1], pair[0])] {
+            let sum = |trade: loftsman::derivation::WaveTrade| trade.energy + this.weight * trade.ratio;
+            assert!(sum(this) <= sum(other) * (1.0 + 1e-9), "{pair:?}");
+        }
+    }
+    let taken = waves.trades[waves.taken];
+    let mean = waves.after.iter().zip(&waves.before).map(|(a, b)| a / b).sum::<f64>() / 3.0;
+    assert!((mean - taken.ratio).abs() < 1e-4 && mean < 0.97, "{mean} {taken:?}");
+    for target in &outputs.targets {
+        assert!(error(target.achieved, target.requested) < 1e-10, "{target:?}");
+    }
+    assert!(outputs.inflections[1] <= outputs.inflections[0] + 2, "{:?}", outputs.inflections);
+}
+
+/// With raked ends the form is a sum over waterlines; half-breadths stay within what `--within` states.
+#[test]
+fn the_wave_resistance_of_a_raked_hull_falls_within_a_tolerance() {
+    let options = [
+        ("--wave-resistance", "wave_resistance", "0.28".to_owned()),
+        ("--wave-weight", "wave_weight", "5".to_owned()),
+        ("--within", "within", "40 mm".to_owned()),
+    ];
+    let outputs = derived("container-ship", &options);
+    let waves = outputs.derived.waves.as_ref().unwrap();
+    assert!(waves.after[0] < 0.999 * waves.before[0], "{waves:?}");
+    let points = |hull: &loftsman::hull::Hull| hull.surface().points().to_vec();
+    let (before, after) = (points(&outputs.derived.scaled), points(&outputs.derived.hull));
+    let largest = before.iter().zip(&after).map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f64::max);
+    assert!(largest < 0.040_01 && largest > 0.001, "{largest}");
+}
+
+#[test]
+fn a_wave_resistance_needs_the_nearest_hull_and_level_waterlines() {
+    let parent = config("wigley.toml");
+    let out = folder("derive-waves").join("out").display().to_string();
+    for (options, code) in [
+        (vec!["--wave-resistance", "0.3", "--method", "lackenby"], "E422"),
+        (vec!["--wave-resistance", "3:5:1"], "E124"),
+        (vec!["--wave-resistance", "0.3", "--wave-weight", "-1"], "E124"),
+    ] {
+        let (status, page, message) = run(&[&["derive", &*parent], &options[..], &["-o", &out]].concat());
+        assert!(status == 2 && message.contains(code), "{options:?} {status} {page} {message}");
+    }
+    let (status, page, _) = run(&["explain", "E425"]);
+    assert!(status == 0 && page.contains("quadratic form"));
+}

@@ -7,6 +7,7 @@
 mod analytic_bodies;
 mod analytic_round_bodies;
 mod architecture;
+mod blend;
 mod bodies;
 mod body_cases;
 mod book;

@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand. Data goes to stdout, messages to stderr; every number that is printed was
 //! returned by a library function.
 
+mod blend;
 mod catalogue;
 mod check;
 mod compare;
@@ -25,6 +26,7 @@ mod schema;
 mod section;
 mod self_test;
 mod stream;
+mod target_flags;
 mod usage;
 mod validate;
 
@@ -82,6 +84,8 @@ enum Command {
     Resistance(Box<resistance::Arguments>),
     /// Derive a hull from a parent: other dimensions, displacement, coefficients and centres, all exact
     Derive(Box<derive::Arguments>),
+    /// Blend two or more hulls by weights, or by the targets that the blend meets exactly
+    Blend(Box<blend::Arguments>),
     /// Hulls that the program carries, ranked by how close they are to what is wanted
     Catalogue(catalogue::Arguments),
     /// Two hulls beside each other: particulars, hydrostatics in per cent, distances, body plans
@@ -230,6 +234,7 @@ fn command(arguments: &[OsString]) -> Result<(), Failure> {
         Command::Hydro(arguments) => hydro::run(arguments),
         Command::Resistance(arguments) => resistance::run(arguments),
         Command::Derive(arguments) => derive::run(arguments),
+        Command::Blend(arguments) => blend::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Offsets(arguments) => offsets::run(arguments),
         Command::Export(arguments) => export::run(arguments),

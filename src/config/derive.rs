@@ -52,6 +52,13 @@ pub const DERIVE_KEYS: &[Key] = &[
         Kind::Positions,
         "Aft and fore end of the parallel body, of the method lackenby. Default: of the parent.",
     ),
+    of(
+        "wave_resistance",
+        Kind::Positions,
+        "Froude numbers at which the wave resistance is made small, as \"0.25:0.30:0.01\". Default: none.",
+    ),
+    of("wave_weight", Kind::Number, "Weight of the wave resistance, m^2. Default: the knee of seven weights."),
+    of("within", Kind::Length, "How far half-breadths move at most for the wave resistance. Default: no limit."),
     of("free", Kind::Word(&FREE), "What is not kept although nothing states it. Default: \"none\"."),
 ];
 
@@ -80,6 +87,12 @@ pub struct DeriveFile {
     pub wetted_surface: Option<f64>,
     /// Aft and fore end of the parallel body \[m\].
     pub parallel_body: Option<[f64; 2]>,
+    /// Froude numbers at which the wave resistance is made small.
+    pub froude_numbers: Option<Vec<f64>>,
+    /// Weight of the wave resistance [m^2].
+    pub wave_weight: Option<f64>,
+    /// How far half-breadths move at most for it \[m\].
+    pub within: Option<f64>,
     /// What is not kept.
     pub free: Vec<&'static str>,
 }
@@ -108,6 +121,9 @@ impl DeriveFile {
             heights: [0, 1].map(|k| self.heights[k].or(other.heights[k])),
             wetted_surface: self.wetted_surface.or(other.wetted_surface),
             parallel_body: self.parallel_body.or(other.parallel_body),
+            froude_numbers: self.froude_numbers.or(other.froude_numbers),
+            wave_weight: self.wave_weight.or(other.wave_weight),
+            within: self.within.or(other.within),
             free: if self.free.is_empty() { other.free } else { self.free },
         }
     }
@@ -134,7 +150,7 @@ pub fn read_derive(file: &str, text: &str) -> Result<DeriveFile, Vec<Diagnostic>
 /// Every problem of the value; the option stands for the file in the messages.
 pub fn read_derive_option(option: &str, key: &str, value: &str) -> Result<DeriveFile, Vec<Diagnostic>> {
     let kind = DERIVE_KEYS.iter().find(|k| k.name == key).map(|k| k.kind);
-    let bare = kind == Some(Kind::Area) && value.trim().parse::<f64>().is_ok();
+    let bare = matches!(kind, Some(Kind::Area | Kind::Number)) && value.trim().parse::<f64>().is_ok();
     let quoted = serde_json::Value::String(value.to_owned()).to_string();
     let value = if bare { value.trim().to_owned() } else { quoted };
     read_derive(option, &format!("derive.{key} = {value}")).map_err(|problems| {
@@ -208,6 +224,20 @@ fn parallel_body(document: &mut Document<'_>) -> Option<[f64; 2]> {
     None
 }
 
+/// Froude numbers of at most 2, and at most 60 of them.
+fn froude_numbers(document: &mut Document<'_>) -> Option<Vec<f64>> {
+    let path = "derive.wave_resistance";
+    let list = document.positions(path)?;
+    if (1..=60).contains(&list.len()) && list.iter().all(|number| (0.05..=2.0).contains(number)) {
+        return Some(list);
+    }
+    let span = document.entry(path).map_or(0..0, |e| e.span.clone());
+    let message = format!("{path} has {} numbers, {:?} the first", list.len(), list.first().copied().unwrap_or(0.0));
+    let help = "Expected 1 to 60 Froude numbers of 0.05 to 2, as \"0.25:0.30:0.01\".".to_owned();
+    document.problem("E124", path, &span, message, help);
+    None
+}
+
 fn interpret(document: &mut Document<'_>) -> DeriveFile {
     document.integer("schema");
     let displacement = document.dimensioned("derive.displacement");
@@ -240,6 +270,9 @@ fn interpret(document: &mut Document<'_>) -> DeriveFile {
         heights: ["derive.KB", "derive.KM"].map(|path| positive(document, path, "length")),
         wetted_surface: positive(document, "derive.wetted_surface", "area"),
         parallel_body: parallel_body(document),
+        froude_numbers: froude_numbers(document),
+        wave_weight: positive(document, "derive.wave_weight", "weight"),
+        within: positive(document, "derive.within", "length"),
         free: free.into_iter().collect(),
     }
 }

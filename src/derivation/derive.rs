@@ -4,11 +4,12 @@ use super::affine::scaled;
 use super::inflections::{counted_planes, inflections};
 use super::lackenby::{HalfBody, changes_of_halves, halves};
 use super::limits::{Interval, interval};
-use super::nearest::{Failed, Search};
+use super::nearest::{Failed, Freedom, Search, breadths};
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
 use super::request::{Method, Origin, Request, Target};
 use super::shift::{Ends, Family, LEVEL_FOLD, Settled, level, shifted};
+use super::waves::{WaveRequest, WaveResult, WaveTerm, WaveTrade, knee, resistances};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::numeric::join;
@@ -17,6 +18,10 @@ use crate::numeric::join;
 const OF_FOLD: f64 = 0.8;
 /// Parts of the way to the targets that the shift takes, in the order in which they are tried.
 const PARTS: [f64; 3] = [0.5, 1.0, 0.0];
+/// R that the middle one of seven weights of the wave resistance gains, about.
+const MIDDLE_GAIN: f64 = 0.1;
+/// Factor from one weight of the wave resistance to the next.
+const WEIGHT_STEP: f64 = 4.0;
 /// Relative error that a daughter may have.
 const EXACT: f64 = 1e-10;
 
@@ -62,6 +67,8 @@ pub struct Derived {
     pub keeps_signs: bool,
     /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
     pub inflections: [usize; 2],
+    /// The wave resistance, where it is made small.
+    pub waves: Option<WaveResult>,
 }
 
 /// Derives a daughter; `intervals` says whether what each target can be is computed as well.
@@ -85,7 +92,10 @@ pub fn derive(
     let mut derived = match request.method {
         Method::Affine => Ok(job.affine()),
         Method::OneMinusPrismatic | Method::Lackenby => job.classical(),
-        Method::Nearest => job.nearest(),
+        Method::Nearest => job.nearest().and_then(|(derived, start, amplitudes)| match &request.waves {
+            Some(waves) => job.with_waves(waves, derived, &start, amplitudes),
+            None => Ok(derived),
+        }),
     }?;
     if request.method != Method::Nearest {
         let planes = counted_planes(&scaled, conventions.stations);
@@ -101,6 +111,9 @@ pub fn derive(
     }
     Ok(derived)
 }
+
+/// A daughter with the shifted parent that it is nearest to, and the amplitudes of the shift.
+type Started = (Derived, Hull, [f64; 2]);
 
 /// What a daughter is made of.
 struct Job<'a> {
@@ -141,6 +154,7 @@ impl Job<'_> {
             programs: 0,
             keeps_signs: false,
             inflections: [0, 0],
+            waves: None,
         }
     }
 
@@ -173,20 +187,21 @@ impl Job<'_> {
 
     /// The hull nearest to starts with different parts of the shift: the first one without more inflections than the scaled
     /// parent, or the one with the fewest.
-    fn nearest(&self) -> Result<Derived, Vec<Refusal>> {
+    fn nearest(&self) -> Result<Started, Vec<Refusal>> {
         let planes = counted_planes(self.scaled, self.conventions.stations);
         let before = inflections(self.scaled, &planes);
-        let mut best: Option<((usize, bool), Derived)> = None;
+        let mut best: Option<((usize, bool), Started)> = None;
         let mut failure = None;
         for part in PARTS {
             let (start, amplitudes) = self.started(part);
-            match self.nearest_to(&start, amplitudes) {
+            let search = Search::new(self.scaled, &start, &self.reference, self.targets);
+            match self.nearest_to(search, amplitudes) {
                 Ok(derived) => {
                     let after = inflections(&derived.hull, &planes);
                     let rank = (after.max(before), !derived.keeps_signs);
                     let derived = Derived { inflections: [before, after], ..derived };
                     if best.as_ref().is_none_or(|(other, _)| rank < *other) {
-                        best = Some((rank, derived));
+                        best = Some((rank, (derived, start.clone(), amplitudes)));
                     }
                     // Without a shift all parts are one.
                     if rank == (before, false) || amplitudes.iter().all(|a| a.abs() < 1e-12) {
@@ -197,7 +212,7 @@ impl Job<'_> {
             }
         }
         match (best, failure) {
-            (Some((_, derived)), _) => Ok(derived),
+            (Some((_, found)), _) => Ok(found),
             (None, Some((start, failed))) => Err(self.infeasible(&start, &failed)),
             (None, None) => Err(Vec::new()),
         }
@@ -223,9 +238,86 @@ impl Job<'_> {
         settled.map_or((self.scaled.clone(), [0.0; 2]), |settled| (settled.hull, settled.amplitudes))
     }
 
+    /// The daughter of least bending and wave resistance: for the weight that is given, or for seven of which the knee is taken.
+    fn with_waves(
+        &self,
+        request: &WaveRequest,
+        plain: Derived,
+        start: &Hull,
+        amplitudes: [f64; 2],
+    ) -> Result<Derived, Vec<Refusal>> {
+        let draught = self.reference.draught;
+        let before = resistances(self.scaled, request, draught).map_err(|refusal| vec![refusal])?;
+        let free = Freedom::of(start).points;
+        let term = WaveTerm::new(start, &free, request, draught, &before).map_err(|refusal| vec![refusal])?;
+        let planes = counted_planes(self.scaled, self.conventions.stations);
+        let base = breadths(start);
+        let moves = |hull: &Hull| -> Vec<f64> {
+            let after = breadths(hull);
+            free.iter().map(|&k| after[k] - base[k]).collect()
+        };
+        let solved = |weight: f64| {
+            let mut search = Search::new(self.scaled, start, &self.reference, self.targets);
+            search.with_waves(&term, weight);
+            request.within.into_iter().for_each(|most| search.within(most));
+            let derived = self.nearest_to(search, amplitudes)?;
+            let change = moves(&derived.hull);
+            let square = change.iter().map(|c| c * c).sum::<f64>() / change.len().max(1) as f64;
+            let trade = WaveTrade {
+                weight,
+                ratio: term.after(&change),
+                energy: derived.energy,
+                moves: square.sqrt(),
+                inflections: inflections(&derived.hull, &planes),
+            };
+            Ok::<_, Failed>((derived, trade))
+        };
+        let weights = match request.weight {
+            Some(weight) => vec![weight],
+            None => self.weights_of_waves(&term, &plain, &moves, &solved),
+        };
+        let mut found = Vec::new();
+        for weight in weights {
+            found.push(solved(weight).map_err(|failed| self.infeasible(start, &failed))?);
+        }
+        let trades: Vec<WaveTrade> = found.iter().map(|(_, trade)| *trade).collect();
+        let taken = knee(&trades);
+        let (derived, trade) = found.swap_remove(taken);
+        let after = resistances(&derived.hull, request, draught).map_err(|refusal| vec![refusal])?;
+        let froude_numbers = request.froude_numbers.clone();
+        let waves = WaveResult { froude_numbers, before, after, trades, taken };
+        Ok(Derived { inflections: [plain.inflections[0], trade.inflections], waves: Some(waves), ..derived })
+    }
+
+    /// Seven weights by factors of [`WEIGHT_STEP`], the middle one of which lowers R by about [`MIDDLE_GAIN`]: from the gain of a
+    /// weight so small that it grows with it.
+    fn weights_of_waves(
+        &self,
+        term: &WaveTerm,
+        plain: &Derived,
+        moves: &dyn Fn(&Hull) -> Vec<f64>,
+        solved: &dyn Fn(f64) -> Result<(Derived, WaveTrade), Failed>,
+    ) -> Vec<f64> {
+        let unit = 0.5 * self.reference.breadth;
+        let without = term.after(&moves(&plain.hull));
+        let mut weight = 1e-4 * unit * unit;
+        for _ in 0..8 {
+            let Ok((_, trade)) = solved(weight) else { break };
+            let gain = without - trade.ratio;
+            if gain > 0.2 * MIDDLE_GAIN {
+                weight *= 0.1;
+            } else if gain < 1e-3 * MIDDLE_GAIN {
+                weight *= 30.0;
+            } else {
+                weight *= MIDDLE_GAIN / gain;
+                break;
+            }
+        }
+        (-3..=3).map(|k| weight * WEIGHT_STEP.powi(k)).collect()
+    }
+
     /// The hull nearest to a start, with the signs of curvature of the parent where they are feasible.
-    fn nearest_to(&self, start: &Hull, amplitudes: [f64; 2]) -> Result<Derived, Failed> {
-        let mut search = Search::new(self.scaled, start, &self.reference, self.targets);
+    fn nearest_to(&self, mut search: Search<'_>, amplitudes: [f64; 2]) -> Result<Derived, Failed> {
         let mut keeps_signs = true;
         let mut found = search.run();
         if found.is_err() {

@@ -3,10 +3,11 @@
 //! [`scaled`] brings the parent to the dimensions. [`derive()`] then meets the targets by a method ([`Method`]): sections that
 //! are shifted along the ship (one minus prismatic, Lackenby 1950), or the hull nearest to the scaled parent, found by a
 //! convex quadratic program over the half-breadths. Targets are met to rounding; what is infeasible is refused with the
-//! intervals that are within reach.
+//! intervals that are within reach. [`blend()`] mixes two or more hulls by weights, which are given or follow from targets.
 
 mod affine;
 mod bending;
+mod blend;
 mod derive;
 mod inflections;
 mod lackenby;
@@ -17,8 +18,10 @@ mod quantity;
 mod refusal;
 mod request;
 mod shift;
+mod waves;
 
 pub use affine::scaled;
+pub use blend::{Blend, BlendRequest, BlendTarget, BlendedHull, Dimension, blend};
 pub use derive::{Derived, Reached, derive};
 pub use inflections::{counted_planes, inflections};
 pub use lackenby::{HalfBody, ShiftLimit, changes_of_halves};
@@ -27,6 +30,7 @@ pub use quantity::{Quantity, Reference, value_of};
 pub use refusal::Refusal;
 pub use request::{Dimensions, Method, Origin, Request, Target};
 pub use shift::LEVEL_FOLD;
+pub use waves::{WaveRequest, WaveResult, WaveTrade};
 
 #[cfg(test)]
 mod samples {

@@ -6,7 +6,7 @@
 //!             0 <= y + c <= B/2, order of sections and waterlines, signs of curvature
 //! ```
 //!
-//! Rows of limits come into the program when an answer misses them. Equations that are not linear (KM, wetted surface, the
+//! A wave resistance joins J as a second convex term ([`super::waves`]). Rows of limits come into the program when an answer misses them. Equations that are not linear (KM, wetted surface, the
 //! place of the largest section) are linearised at the answer until they hold; a last correction of least size takes what
 //! the solver leaves, so that relative errors are those of rounding.
 
@@ -16,6 +16,7 @@ use super::bending::form;
 use super::pool::{AT_LIMIT, Candidate, Kind, candidates};
 use super::quantity::{Equation, Reference, equation};
 use super::request::Target;
+use super::waves::WaveTerm;
 use crate::hull::{Hull, HullError};
 use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
 use crate::spline::BsplineSurface;
@@ -124,6 +125,8 @@ pub(super) struct Search<'a> {
     /// Unit of the changes \[m\].
     pub(super) unit: f64,
     form: SparseRows,
+    /// The wave resistance with its weight [m^2].
+    waves: Option<(&'a WaveTerm, f64)>,
     pub(super) programs: usize,
     /// Most rounds in which missed rows come into a program.
     pub(super) rounds: usize,
@@ -133,7 +136,6 @@ pub(super) struct Search<'a> {
 pub(super) struct Answer {
     pub(super) y: Vec<f64>,
     pub(super) multipliers: Vec<f64>,
-    objective: f64,
     gap: f64,
 }
 
@@ -154,6 +156,7 @@ impl<'a> Search<'a> {
             base: breadths(start),
             unit: 0.5 * start.particulars().breadth,
             form,
+            waves: None,
             programs: 0,
             rounds: ROUNDS,
         }
@@ -183,13 +186,53 @@ impl<'a> Search<'a> {
             upper.push(f64::INFINITY);
         }
         let (quadratic, linear) = match towards {
-            None => (self.form.clone(), vec![0.0; n]),
+            None => self.objective(n),
             Some(row) => (SparseRows::from_entries(n, n, &[]), row.to_vec()),
         };
         Problem { quadratic, linear, rows, lower, upper }
     }
 
     /// Solves, and takes missed rows in until none is.
+    /// Hessian and slope of J + w R over the square of the unit.
+    fn objective(&self, n: usize) -> (SparseRows, Vec<f64>) {
+        let Some((term, weight)) = self.waves else { return (self.form.clone(), vec![0.0; n]) };
+        let mut hessian = SparseRows::new(n);
+        let mut row = vec![0.0; n];
+        for i in 0..n {
+            (0..n).for_each(|j| row[j] = 2.0 * weight * term.form[(i, j)]);
+            self.form.entries(i).for_each(|(j, value)| row[j] += value);
+            hessian.push(row.iter().copied().enumerate());
+        }
+        (hessian, term.gradient.iter().map(|g| weight * g / self.unit).collect())
+    }
+
+    /// J of half-breadths [m^2].
+    fn bending(&self, y: &[f64]) -> f64 {
+        let change: Vec<f64> = self.freedom.points.iter().map(|&k| y[k] - self.base[k]).collect();
+        0.5 * self.form.apply(&change).iter().zip(&change).map(|(a, b)| a * b).sum::<f64>()
+    }
+
+    /// With a weight of the wave resistance besides.
+    pub(super) fn with_waves(&mut self, term: &'a WaveTerm, weight: f64) {
+        self.waves = Some((term, weight));
+    }
+
+    /// With half-breadths that stay so near to the start \[m\].
+    pub(super) fn within(&mut self, most: f64) {
+        let slack = AT_LIMIT * self.unit;
+        let base = self.base.clone();
+        let free = self.freedom.points.clone();
+        let rows = free.iter().flat_map(|&k| [1.0, -1.0].map(|way| (k, way)));
+        let candidates = rows.map(|(k, way)| Candidate {
+            kind: Kind::Tolerance,
+            row: vec![(k, way)],
+            lower: way * base[k] - most,
+            slack,
+        });
+        self.candidates.extend(candidates);
+        self.taken.resize(self.candidates.len(), false);
+    }
+
     pub(super) fn solve(
         &mut self,
         equations: &[Equation],
@@ -211,8 +254,7 @@ impl<'a> Search<'a> {
             let mut y = self.base.clone();
             self.freedom.points.iter().zip(&solution.x).for_each(|(&k, c)| y[k] += self.unit * c);
             if !self.take_missed(&y) {
-                let (multipliers, objective) = (solution.multipliers, certificate.primal);
-                return Ok(Answer { y, multipliers, objective, gap: certificate.gap.abs() });
+                return Ok(Answer { y, multipliers: solution.multipliers, gap: certificate.gap.abs() });
             }
         }
         Err(Failed::Infeasible)
@@ -263,7 +305,7 @@ impl<'a> Search<'a> {
             let equations = self.equations(&hull);
             error = equations.iter().map(|e| e.residual.abs()).fold(0.0, f64::max);
             let keeps = self.candidates.iter().all(|candidate| !candidate.is_missed(&at));
-            if error <= CORRECTED && (last.is_some() || keeps) {
+            if error <= CORRECTED && (last.is_some() || (keeps && self.waves.is_none())) {
                 break;
             }
             let answer = self.solve(&equations, &at, None)?;
@@ -291,7 +333,7 @@ impl<'a> Search<'a> {
         Ok(Nearest {
             hull: with_breadths(self.start, &y).map_err(Failed::Hull)?,
             prices,
-            energy: last.as_ref().map_or(0.0, |answer| answer.objective * square),
+            energy: self.bending(&y),
             gap: last.as_ref().map_or(0.0, |answer| answer.gap),
             binding,
             programs: self.programs,

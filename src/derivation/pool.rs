@@ -31,6 +31,8 @@ pub(super) enum Kind {
     Crossing,
     /// A sign of curvature.
     Sign,
+    /// So near to the start.
+    Tolerance,
 }
 
 /// row . y >= lower.

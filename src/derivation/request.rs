@@ -2,6 +2,7 @@
 
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
+use super::waves::WaveRequest;
 use crate::hull::Hull;
 
 /// Main dimensions of the daughter \[m\]; those of the parent where none is named.
@@ -95,11 +96,13 @@ pub struct Request {
     pub method: Method,
     /// Ends of the parallel body of the daughter \[m\], of the method of Lackenby.
     pub parallel_body: Option<[f64; 2]>,
+    /// The wave resistance that is made small, of the nearest hull.
+    pub waves: Option<WaveRequest>,
 }
 
 impl Request {
     /// The value that the request states for a quantity of a hull with this reference.
-    fn stated(&self, quantity: Quantity, reference: &Reference) -> Option<f64> {
+    pub(super) fn stated(&self, quantity: Quantity, reference: &Reference) -> Option<f64> {
         let own = self.targets.iter().find(|(named, _)| *named == quantity).map(|(_, value)| *value);
         let other = match quantity {
             Quantity::Volume => self.block_coefficient.map(|block| block * reference.volume()),
@@ -127,7 +130,7 @@ impl Request {
         if refused.is_empty() { Ok(list) } else { Err(refused) }
     }
 
-    fn names(&self, quantity: Quantity) -> bool {
+    pub(super) fn names(&self, quantity: Quantity) -> bool {
         let other = match quantity {
             Quantity::Volume => self.block_coefficient.is_some(),
             Quantity::Lcb => self.lcb_percent.is_some(),
@@ -174,6 +177,10 @@ impl Request {
             let message = "a shift of sections keeps C_M, so that cp follows from cb".to_owned();
             refused.push(Refusal::new("E422", vec!["cp", "cb"], message, "Leave one of them out".to_owned()));
         }
+        if self.waves.is_some() && self.method != Method::Nearest {
+            let message = format!("method {} takes no wave resistance", self.method.as_str());
+            refused.push(Refusal::new("E422", vec!["wave-resistance"], message, "Take --method nearest".to_owned()));
+        }
         if self.parallel_body.is_some() && self.method != Method::Lackenby {
             let message = format!("method {} takes no parallel body", self.method.as_str());
             refused.push(Refusal::new("E422", vec!["parallel-body"], message, "Take --method lackenby".to_owned()));
@@ -183,7 +190,7 @@ impl Request {
 }
 
 /// What no ship has.
-fn impossible(target: &Target, reference: &Reference) -> Option<Refusal> {
+pub(super) fn impossible(target: &Target, reference: &Reference) -> Option<Refusal> {
     let (l, b, t) = (reference.length, reference.breadth, reference.draught);
     let [low, high] = match target.quantity {
         Quantity::Volume => [0.0, 1.0],

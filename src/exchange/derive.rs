@@ -26,8 +26,43 @@ pub struct DerivedTarget {
     pub interval: Option<[f64; 2]>,
 }
 
+/// What the wave resistance comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WaveReport {
+    /// Froude numbers.
+    pub froude_numbers: Vec<f64>,
+    /// R_W of the scaled parent and of the daughter \[N\].
+    pub resistances: [Vec<f64>; 2],
+    /// Weight [m^2], mean of R_W over that of the scaled parent, bending [m^2], moves \[m\] and inflections of every weight.
+    pub trades: Vec<[f64; 5]>,
+    /// Which of them was taken.
+    pub taken: usize,
+}
+
+fn waves_json(waves: &WaveReport) -> Value {
+    let speed = |(k, number): (usize, &f64)| {
+        let of = |which: usize| json_number(waves.resistances[which].get(k).copied());
+        json!({ "froude_number": json_number(Some(*number)), "RW_scaled_parent": of(0), "RW_daughter": of(1) })
+    };
+    let trade = |[weight, ratio, energy, moves, inflections]: &[f64; 5]| {
+        let number = |value: &f64| json_number(Some(*value));
+        json!({
+            "weight": number(weight),
+            "RW_ratio": number(ratio),
+            "energy": number(energy),
+            "moves_rms": number(moves),
+            "inflections": *inflections as usize,
+        })
+    };
+    json!({
+        "speeds": waves.froude_numbers.iter().enumerate().map(speed).collect::<Vec<_>>(),
+        "weights": waves.trades.iter().map(trade).collect::<Vec<_>>(),
+        "taken": waves.taken,
+    })
+}
+
 /// What `derive.json` holds.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct DeriveReport<'a> {
     /// Name of the parent.
     pub parent: &'a str,
@@ -45,11 +80,13 @@ pub struct DeriveReport<'a> {
     pub inflections: [usize; 2],
     /// How far the daughter is from the scaled parent.
     pub moved: Option<SurfaceDistance>,
+    /// The wave resistance, where it is made small.
+    pub waves: Option<WaveReport>,
     /// Warnings.
     pub warnings: &'a [String],
 }
 
-/// `{"parent", "method", "targets", "shift", "program", "inflections", "moved", "warnings"}`.
+/// `{"parent", "method", "targets", "shift", "program", "inflections", "moved_from_scaled_parent", "wave_resistance", "warnings"}`.
 #[must_use]
 pub fn derive_json(report: &DeriveReport<'_>) -> Value {
     let target = |t: &DerivedTarget| {
@@ -78,6 +115,7 @@ pub fn derive_json(report: &DeriveReport<'_>) -> Value {
         "program": { "energy": json_number(Some(energy)), "gap": json_number(Some(gap)), "binding": binding, "solved": programs },
         "inflections": { "scaled_parent": report.inflections[0], "daughter": report.inflections[1] },
         "moved_from_scaled_parent": moved,
+        "wave_resistance": report.waves.as_ref().map(waves_json),
         "warnings": report.warnings,
     })
 }

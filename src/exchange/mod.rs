@@ -1,6 +1,7 @@
 //! Files that other programs, or this one, read and write: one file a format. Text in, values out, and back; the file
 //! system is the business of whoever calls.
 
+mod blend;
 mod cad;
 mod compare;
 mod curve;
@@ -27,10 +28,11 @@ mod subdivision;
 mod summary;
 mod table;
 
+pub use blend::{BlendPart, BlendReport, blend_json};
 pub use cad::{CadUnit, DxfLine, DxfVersion, write_dxf, write_iges, write_step};
 pub use compare::{CompareFile, ComparedValue, compare_csv, compare_json, per_cent};
 pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
-pub use derive::{DeriveReport, DerivedTarget, derive_json};
+pub use derive::{DeriveReport, DerivedTarget, WaveReport, derive_json};
 pub use fairing::{
     COMPROMISE_LINE, NO_MOVE, RoundingEffect, changes_csv, control_polygon_csv, fairing_json, priced, reached,
     status_word,

@@ -5,11 +5,12 @@ use std::fmt::Write as _;
 use super::compare_page::compare_page;
 use super::derive::DeriveOutputs;
 use super::page::{dimensions, fixed, wrapped};
-use crate::derivation::Method;
+use crate::derivation::{Method, WaveResult};
 use crate::exchange::DerivedTarget;
+use crate::resistance::THIN_SHIP_LIMITS;
 
 /// Decimals of a value of a target.
-fn decimals(target: &DerivedTarget) -> usize {
+pub(super) fn decimals(target: &DerivedTarget) -> usize {
     match target.unit {
         "-" => 5,
         "m3" | "m2" => 2,
@@ -90,6 +91,32 @@ fn how(outputs: &DeriveOutputs) -> Vec<String> {
     lines
 }
 
+/// R_W at each Froude number, and what other weights come to.
+fn waves(page: &mut String, waves: &WaveResult) {
+    let _ = writeln!(page, "{:>8}{:>16}{:>16}{:>10}", "Fn", "R_W scaled kN", "R_W kN", "change");
+    for ((number, before), after) in waves.froude_numbers.iter().zip(&waves.before).zip(&waves.after) {
+        let change = format!("{:+.1} %", 100.0 * (after / before - 1.0));
+        let [before, after] = [before, after].map(|value| fixed(1e-3 * value, 3));
+        let _ = writeln!(page, "{number:>8.4}{before:>16}{after:>16}{change:>10}");
+    }
+    page.push('\n');
+    let _ = writeln!(
+        page,
+        "{:>12}{:>12}{:>14}{:>12}{:>14}",
+        "weight m2", "mean R_W", "bending m2", "moves mm", "inflections"
+    );
+    for (k, trade) in waves.trades.iter().enumerate() {
+        let [weight, energy] = [trade.weight, trade.energy].map(|value| format!("{value:.2e}"));
+        let ratio = format!("{:+.2} %", 100.0 * (trade.ratio - 1.0));
+        let moves = fixed(1e3 * trade.moves, 1);
+        let taken = if k == waves.taken { " <" } else { "" };
+        let _ = writeln!(page, "{weight:>12}{ratio:>12}{energy:>14}{moves:>12}{:>14}{taken}", trade.inflections);
+    }
+    page.push('\n');
+    page.push_str(&wrapped(THIN_SHIP_LIMITS, 2));
+    page.push('\n');
+}
+
 /// The page, at most 80 columns.
 #[must_use]
 pub fn derive_page(outputs: &DeriveOutputs) -> String {
@@ -100,6 +127,7 @@ pub fn derive_page(outputs: &DeriveOutputs) -> String {
     targets(&mut page, outputs);
     how(outputs).iter().for_each(|line| page.push_str(&wrapped(line, 2)));
     page.push('\n');
+    outputs.derived.waves.iter().for_each(|found| waves(&mut page, found));
     page.push_str(&compare_page(&outputs.comparison));
     page
 }

@@ -1,5 +1,7 @@
 //! Whole jobs: from a design or a table to the files about it, and what is printed of them.
 
+mod blend;
+mod blend_page;
 mod catalogue;
 mod check;
 mod codes;
@@ -9,6 +11,7 @@ mod compare_page;
 mod convert;
 mod derive;
 mod derive_page;
+mod derived_hull;
 mod doubts;
 mod export;
 mod failure;
@@ -44,6 +47,8 @@ mod staging;
 mod validate;
 mod verdict;
 
+pub use blend::{BlendJob, BlendOutputs, blend_files, blend_outputs};
+pub use blend_page::blend_page;
 pub use catalogue::{
     CatalogueEntry, WANTED, catalogue, catalogue_file, catalogue_json, catalogue_names, catalogue_page, index_csv,
     ranked,

@@ -15,7 +15,7 @@ mod water;
 pub use components::{Components, Method, Viscous, power};
 pub use friction::{froude_number, ittc57, reynolds_number};
 pub use holtrop::{Edition, Holtrop, appendage_factor, half_angle_of_entrance, wetted_surface_estimate};
-pub use michell::{THIN_SHIP_LIMITS, ThinShip, WaveGradient};
+pub use michell::{THIN_SHIP_LIMITS, ThinShip, WaveForm, WaveForms, WaveGradient};
 pub use prediction::{InputOrigin, Prediction, PredictionInput, PredictionRow, ViscousOverrides, limits, predict};
 pub use ranges::{Range, outside};
 pub use ship::{Appendage, AppendageKind, ShipFault, ShipParameters, SternShape};

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 39] = [
+pub(super) const REMARKS: [Explanation; 40] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -231,10 +231,18 @@ pub(super) const REMARKS: [Explanation; 39] = [
     Explanation {
         code: "W420",
         title: "Daughter with more inflections",
-        cause: "The hull that `derive` made meets its targets with more inflections of stations and waterlines than its \
-         parent has at the same dimensions.",
+        cause: "The hull that `derive` or `blend` made has more inflections of stations and waterlines than the hulls that it \
+         is made from.",
         example: "`loftsman derive configs/wigley.toml --cb 0.56`.",
         remedy: "Give targets nearer to the parent, free one that is kept, or fair the table of the daughter.",
+    },
+    Explanation {
+        code: "W421",
+        title: "Hull that moves on its way to the chart of a blend",
+        cause: "A hull of `blend` is not within a ten thousandth of L_PP of its surface on the common chart. Knuckles or \
+         profiles that lie elsewhere are rounded there.",
+        example: "`W421 barge/hull.json: Barge moves by 31.2 mm at most on its way to the chart of Coaster`.",
+        remedy: "Blend hulls whose profiles and knuckles are alike, and look at the figures.",
     },
     Explanation {
         code: "W510",

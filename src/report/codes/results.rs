@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const RESULTS: [Explanation; 21] = [
+pub(super) const RESULTS: [Explanation; 24] = [
     Explanation {
         code: "E401",
         title: "Infeasible targets",
@@ -56,6 +56,30 @@ pub(super) const RESULTS: [Explanation; 21] = [
          other.",
         example: "`loftsman derive configs/tug.toml --cwp 0.8 --method lackenby`.",
         remedy: "Take `--method nearest`, or leave the target out.",
+    },
+    Explanation {
+        code: "E423",
+        title: "Weights or targets of a blend",
+        cause: "The weights of `blend` are not one a hull, not negative and 1 in sum. Or k hulls are given more than k - 1 \
+         targets, and one for each free dimension.",
+        example: "`loftsman blend configs/tug.toml configs/yacht.toml --weights 0.5,0.6`.",
+        remedy: "Correct the weights, leave a target out, name another hull, or free a dimension with `--free`.",
+    },
+    Explanation {
+        code: "E424",
+        title: "Hulls without a common chart",
+        cause: "The profiles of the hulls are so different that the lines of one cannot be laid into the other without \
+         crossing.",
+        example: "`E424 Yacht and Barge have no common chart: near x = 2.10 m, z = 0.40 m no point of it corresponds`.",
+        remedy: "Blend hulls with profiles that are alike: stem, stern and keel.",
+    },
+    Explanation {
+        code: "E425",
+        title: "Wave resistance that is no quadratic form",
+        cause: "`derive --wave-resistance` needs a parent whose waterlines are lines of its net: one level keel, and the same \
+         heights along the ship. A surface with rocker has others.",
+        example: "`loftsman derive yacht-with-rocker/hull.json --wave-resistance 0.35`.",
+        remedy: "Derive from a hull with level waterlines, as `generate` makes them.",
     },
     Explanation {
         code: "E501",

@@ -9,10 +9,13 @@
 //! waves of a sharp end; on other hulls 1e-5 where waterlines change smoothly with depth, and 5e-4 where they do not, as
 //! at the foot of a transom (3.3e-4 on a generated frigate at Fn 0.15). That of the theory is another matter: [`THIN_SHIP_LIMITS`].
 
+mod form;
 mod integral;
 mod net;
 mod panel;
 mod waterlines;
+
+pub use form::{WaveForm, WaveForms};
 
 use std::cell::RefCell;
 use std::f64::consts::PI;

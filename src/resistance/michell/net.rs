@@ -19,14 +19,14 @@ const TOLERANCE: f64 = 1e-12;
 
 /// The panels of one axis; with each the index of the first basis function.
 #[derive(Debug, Clone)]
-struct Axis {
+pub(super) struct Axis {
     panels: Vec<(usize, Panel<FUNCTIONS>)>,
     functions: usize,
     count: usize,
 }
 
 impl Axis {
-    fn new(coordinate: &BsplineCurve<1>, slopes: bool, end: f64) -> Self {
+    pub(super) fn new(coordinate: &BsplineCurve<1>, slopes: bool, end: f64) -> Self {
         let knots: &KnotVector = coordinate.knots();
         let mut list = Vec::new();
         for span in knots.spans() {
@@ -44,6 +44,29 @@ impl Axis {
             list.extend(panels(&sample, [from, to], slopes, TOLERANCE).into_iter().map(|panel| (first, panel)));
         }
         Self { panels: list, functions: knots.degree() + 1, count: knots.basis_count() }
+    }
+
+    /// G_i at wave number `k`; a flat bow falls to the centreplane at x = `fore`.
+    pub(super) fn wave(&self, k: f64, fore: f64, values: &mut NetValues) {
+        let mut moments = Moments::default();
+        for list in [&mut values.real, &mut values.imaginary] {
+            list.clear();
+            list.resize(self.count, 0.0);
+        }
+        for (first, panel) in &self.panels {
+            let of_wave = *moments.of_wave(k, panel.half);
+            let (sine, cosine) = (k * panel.middle).sin_cos();
+            let ends = *first..*first + self.functions;
+            let targets = values.real[ends.clone()].iter_mut().zip(&mut values.imaginary[ends]);
+            for ((real, imaginary), series) in targets.zip(&panel.series) {
+                let [a, b] = oscillation(series, &of_wave, panel.count);
+                *real += cosine * a - sine * b;
+                *imaginary += cosine * b + sine * a;
+            }
+        }
+        let (sine, cosine) = (k * fore).sin_cos();
+        values.real[self.count - 1] -= cosine;
+        values.imaginary[self.count - 1] -= sine;
     }
 }
 
@@ -63,9 +86,9 @@ pub(super) struct NetKochin {
 #[derive(Debug, Clone, Default)]
 pub(super) struct NetValues {
     /// Real parts of G_i.
-    real: Vec<f64>,
+    pub(super) real: Vec<f64>,
     /// Imaginary parts of G_i.
-    imaginary: Vec<f64>,
+    pub(super) imaginary: Vec<f64>,
     /// H_j.
     heights: Vec<f64>,
 }
@@ -126,27 +149,20 @@ impl NetKochin {
         }
     }
 
-    fn along_values(&self, k: f64, values: &mut NetValues) {
-        let mut moments = Moments::default();
-        for list in [&mut values.real, &mut values.imaginary] {
-            list.clear();
-            list.resize(self.along.count, 0.0);
-        }
-        for (first, panel) in &self.along.panels {
-            let of_wave = *moments.of_wave(k, panel.half);
-            let (sine, cosine) = (k * panel.middle).sin_cos();
-            let ends = *first..*first + self.along.functions;
-            let targets = values.real[ends.clone()].iter_mut().zip(&mut values.imaginary[ends]);
-            for ((real, imaginary), series) in targets.zip(&panel.series) {
-                let [a, b] = oscillation(series, &of_wave, panel.count);
-                *real += cosine * a - sine * b;
-                *imaginary += cosine * b + sine * a;
+    /// G_i H_j at wave number `k` and decay `q`, real and imaginary parts, in the order of the control values.
+    pub(super) fn row(&self, k: f64, q: f64, values: &mut NetValues, row: [&mut [f64]; 2]) {
+        self.along_values(k, values);
+        self.up_values(q, values);
+        let [real, imaginary] = row;
+        for (list, along) in [(real, &values.real), (imaginary, &values.imaginary)] {
+            for (entries, g) in list.chunks_exact_mut(self.up.count).zip(along) {
+                entries.iter_mut().zip(&values.heights).for_each(|(entry, h)| *entry = g * h);
             }
         }
-        // A flat bow falls to the centreplane at one x.
-        let (sine, cosine) = (k * self.fore).sin_cos();
-        values.real[self.along.count - 1] -= cosine;
-        values.imaginary[self.along.count - 1] -= sine;
+    }
+
+    fn along_values(&self, k: f64, values: &mut NetValues) {
+        self.along.wave(k, self.fore, values);
     }
 
     fn up_values(&self, q: f64, values: &mut NetValues) {

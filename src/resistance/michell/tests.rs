@@ -162,3 +162,32 @@ fn at_rest_there_is_no_resistance() {
     assert!(ThinShip::new(&hull(), 2.0).is_err());
     assert_eq!(ship.wave_resistances(&[0.0, 1.0, 2.0], &water()).len(), 3);
 }
+
+/// R_W(c + d) = R_W + g'd + d'Gd, on a rectangle and with raked ends; G is positive semidefinite.
+#[test]
+fn the_quadratic_form_is_that_of_the_resistance() {
+    for (hull, tolerance) in [(hull(), 2e-6), (raked(false), 2e-4)] {
+        let draught = hull.particulars().draught.unwrap();
+        let length = hull.particulars().length_between_perpendiculars;
+        let columns = hull.surface().shape()[1];
+        let free: Vec<usize> = vec![5 * columns + 3, 5 * columns + 4, 11 * columns + 6, 16 * columns + 9];
+        let forms = WaveForms::new(&hull, draught).unwrap();
+        let speed = 0.3 * (9.80665 * length).sqrt();
+        let form = forms.at(speed, &water(), &free);
+        let exact = ThinShip::new(&hull, draught).unwrap().wave_resistance(speed, &water());
+        assert!((form.resistance / exact - 1.0).abs() < tolerance, "{} {exact}", form.resistance);
+        let change = [0.02, -0.01, 0.03, 0.01].map(|part: f64| part * hull.particulars().breadth);
+        let mut points = hull.surface().points().to_vec();
+        free.iter().zip(change).for_each(|(&k, d)| points[k][1] += d);
+        let surface = BsplineSurface::new(hull.surface().u().clone(), hull.surface().v().clone(), points).unwrap();
+        let moved = Hull::new("moved", *hull.particulars(), surface, hull.deck().clone()).unwrap();
+        let found = ThinShip::new(&moved, draught).unwrap().wave_resistance(speed, &water());
+        let linear: f64 = form.gradient.iter().zip(change).map(|(g, d)| g * d).sum();
+        let d = nalgebra::DVector::from_row_slice(&change);
+        let square = (d.transpose() * &form.form * &d)[(0, 0)];
+        let expected = form.resistance + linear + square;
+        assert!((found / expected - 1.0).abs() < 2.0 * tolerance, "{found} {expected} {linear} {square}");
+        let least = form.form.clone().symmetric_eigenvalues().min();
+        assert!(least > -1e-9 * form.form.norm(), "{least}");
+    }
+}

@@ -32,36 +32,61 @@ struct Level {
     panels: Vec<Panel<1>>,
 }
 
-/// A hull below a waterline, by its waterlines.
+/// Levels of depth with the weights of a rule, the same for every hull.
 #[derive(Debug, Clone)]
-pub(super) struct WaterlineKochin {
+pub(super) struct Rings<T> {
     /// From the keel up; the depth of the top of each \[m\].
-    rings: Vec<(f64, Vec<Level>)>,
+    rings: Vec<(f64, Vec<T>)>,
     /// From the surface down to the top of each ring.
-    caps: Vec<(f64, Vec<Level>)>,
+    caps: Vec<(f64, Vec<T>)>,
 }
 
-impl WaterlineKochin {
-    pub(super) fn new(hull: &Hull, draught: f64, nodes: usize) -> Self {
-        let deepest = draught - hull.bottom();
+impl<T> Rings<T> {
+    /// Down to a depth \[m\]; `level` gets a depth with its weight.
+    pub(super) fn new(deepest: f64, nodes: usize, level: impl Fn(f64, f64) -> T) -> Self {
         let part = |ring: usize| deepest * 0.5f64.powi(ring as i32);
-        let list = |from: f64, to: f64, count: usize| -> Vec<Level> {
+        let list = |from: f64, to: f64, count: usize| -> Vec<T> {
             let edges = graded(from, to, count);
             let pairs = edges.windows(2).map(|pair| [pair[0], pair[1]]);
             let depths = pairs.flat_map(|[a, b]| gauss_legendre(nodes).on(a, b));
-            depths.map(|(depth, weight)| level(hull, draught, depth, weight)).collect()
+            depths.map(|(depth, weight)| level(depth, weight)).collect()
         };
         let rings = (0..RINGS).map(|n| (part(n + 1), list(part(n + 1), part(n), [4, 2].get(n).copied().unwrap_or(1))));
         let caps = (0..=RINGS).map(|n| (part(n), if n < LEAST_RINGS { Vec::new() } else { list(0.0, part(n), 1) }));
         Self { rings: rings.collect(), caps: caps.collect() }
     }
 
+    /// The levels that matter at the decay `q`, each counted once.
+    pub(super) fn at(&self, q: f64) -> impl Iterator<Item = &T> {
+        let cap = (LEAST_RINGS..RINGS).find(|&n| q * self.caps[n].0 <= CAP).unwrap_or(RINGS);
+        let near = self.rings[..cap].iter().filter(move |(top, _)| q * top < DEEPEST).flat_map(|(_, levels)| levels);
+        near.chain(&self.caps[cap].1)
+    }
+}
+
+impl<T> Rings<Option<T>> {
+    /// None where a level is missing.
+    pub(super) fn whole(self) -> Option<Rings<T>> {
+        let all = |list: Vec<(f64, Vec<Option<T>>)>| -> Option<Vec<(f64, Vec<T>)>> {
+            list.into_iter().map(|(top, levels)| Some((top, levels.into_iter().collect::<Option<_>>()?))).collect()
+        };
+        Some(Rings { rings: all(self.rings)?, caps: all(self.caps)? })
+    }
+}
+
+/// A hull below a waterline, by its waterlines.
+#[derive(Debug, Clone)]
+pub(super) struct WaterlineKochin(Rings<Level>);
+
+impl WaterlineKochin {
+    pub(super) fn new(hull: &Hull, draught: f64, nodes: usize) -> Self {
+        Self(Rings::new(draught - hull.bottom(), nodes, |depth, weight| level(hull, draught, depth, weight)))
+    }
+
     /// F at wave number `k` and decay `q`, real and imaginary part [m^2].
     pub(super) fn kochin(&self, k: f64, q: f64) -> [f64; 2] {
-        let cap = (LEAST_RINGS..RINGS).find(|&n| q * self.caps[n].0 <= CAP).unwrap_or(RINGS);
-        let near = self.rings[..cap].iter().filter(|(top, _)| q * top < DEEPEST).flat_map(|(_, levels)| levels);
         let mut sums = [0.0; 2];
-        for level in near.chain(&self.caps[cap].1) {
+        for level in self.0.at(q) {
             let weight = level.weight * (-q * level.depth).exp();
             let [real, imaginary] = level.wave(k);
             sums[0] += weight * real;

@@ -1,0 +1,83 @@
+//! `loftsman blend A B --weights 0.4,0.6 -o DIR`, or `--cb 0.7 --lcb "-1 %"` in place of weights
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::run_files::{Figures, RunFiles};
+use super::stream;
+use super::target_flags::{TARGETS, TargetFlags};
+use crate::derivation::Dimension;
+use crate::exchange::blend_json;
+use crate::report::{BlendJob, Destination, Failure, Inputs, blend_files, blend_outputs, blend_page, source_files};
+
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(super) struct Arguments {
+    /// Hulls, two or more: hull.json, a folder that holds one, a design, a table of offsets, a mesh or CAD file, catalogue:NAME
+    #[arg(required = true, value_name = "HULL")]
+    hulls: Vec<PathBuf>,
+    /// Weights in the order of the hulls, as 0.4,0.6; they sum to 1
+    #[arg(long, value_delimiter = ',', value_name = "LIST", allow_hyphen_values = true, help_heading = TARGETS)]
+    weights: Vec<f64>,
+    #[command(flatten)]
+    targets: TargetFlags,
+    /// Dimension that may change for the targets: lpp, beam or draught; may be repeated
+    #[arg(long, value_parser = dimension, value_name = "NAME", help_heading = TARGETS)]
+    free: Vec<Dimension>,
+    /// Print what each target can be with the others as they are
+    #[arg(long)]
+    limits: bool,
+    #[command(flatten)]
+    conventions: super::BodyFlags,
+    #[command(flatten)]
+    stations: super::StationFlags,
+    #[command(flatten)]
+    files: RunFiles,
+    #[command(flatten)]
+    figures: Figures,
+}
+
+const AFTER: &str = "\
+Hulls are brought to common dimensions, those of the first unless an option names others, and to one chart. \
+Half-breadths of the blend lie between those of the hulls. Profiles that differ are blended with the same weights.
+Without weights they follow from the targets: the weights nearest to equal ones that meet them to rounding. k hulls meet k - 1 targets, and one \
+more for each dimension that is free.
+Files: those of generate, blend.json, compare.md, compare.csv, compare.json and the figures that compare the blend with the hull of \
+largest weight. Exit code 4 when no weights meet the targets; the message states what is within reach.";
+
+fn dimension(word: &str) -> Result<Dimension, String> {
+    let found = Dimension::ALL.into_iter().find(|dimension| dimension.word() == word);
+    found.ok_or_else(|| format!("{word:?} is none of lpp, beam, draught"))
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let job = BlendJob {
+        hulls: arguments.hulls.clone(),
+        overrides: arguments.stations.with(&arguments.conventions),
+        wanted: arguments.targets.wanted(&[])?,
+        weights: (!arguments.weights.is_empty()).then(|| arguments.weights.clone()),
+        free: arguments.free.clone(),
+        intervals: arguments.limits,
+    };
+    let folder = arguments.files.folder(&arguments.hulls[0], false);
+    let read: Vec<PathBuf> = job.hulls.iter().flat_map(|path| source_files(path)).collect();
+    let inputs = Inputs::of(&read);
+    let destination = Destination { folder: &folder, inputs: &inputs, force: arguments.files.force };
+    destination.check(["hull.json", "blend.json", "manifest.json"])?;
+    let usual = ["lines", "sections", "sectional-area", "hydrostatics", "diagram-sheet"];
+    let outputs = blend_outputs(&job, &arguments.figures.chosen(&arguments.files, &usual))?;
+    if !arguments.files.quiet {
+        outputs.notes.iter().for_each(|note| stream::message(note));
+    }
+    outputs.warnings.iter().for_each(|warning| stream::message(warning));
+    destination.write_run(&blend_files(&job, &outputs, !arguments.files.no_figures)?)?;
+    if arguments.files.json {
+        return stream::data(&stream::json_judged(blend_json(&outputs.report()), &outputs.verdict())?)
+            .and(outputs.verdict());
+    }
+    if !arguments.files.quiet {
+        stream::page(&blend_page(&outputs))?;
+    }
+    outputs.verdict()
+}
