@@ -136,7 +136,7 @@ fn between_perpendiculars(body: &HydrostaticBody) -> PredictionInput {
             (false, true) => InputOrigin::Assumed,
             (false, false) => InputOrigin::FromHull,
         },
-        note: "for reference: the formulas take L",
+        note: "the formulas take L",
     }
 }
 

@@ -79,7 +79,7 @@ fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
     let mut rest = Vec::new();
     let mut has_origin = false;
     for word in words(text) {
-        match word.as_str() {
+        match word.trim_end_matches('.') {
             "above" | "below" => has_origin = true,
             // From where heights count.
             "bl" | "dwl" | "lwl" | "wl" | "waterline" if has_origin => {}
@@ -90,12 +90,12 @@ fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
             | "halfbreadth" | "halfbreadths" | "width" | "widths" | "halfwidth" | "halfwidths" => {
                 group = Some(Group::HalfBreadths)
             }
-            "diagonal" | "diagonals" | "diag" | "diag." => group = Some(Group::Diagonals),
-            "length" | "dist" | "dist." | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
+            "diagonal" | "diagonals" | "diag" => group = Some(Group::Diagonals),
+            "length" | "dist" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
                 group = group.or(Some(Group::Positions));
             }
             "of" | "full" | "whole" | "base" | "baseline" | "line" | "at" | "from" | "centreline" | "centerline"
-            | "c.l." | "cl" => {}
+            | "c.l" | "cl" => {}
             _ => rest.push(word),
         }
     }
