@@ -388,8 +388,18 @@ fn added(body: &HydrostaticBody, panels: &[[f64; 2]]) -> Vec<[f64; 2]> {
 /// V(b) - V(a) is the integral of the waterplane. It has kinks, and above the lowest point of the deck edge it falls as a
 /// root: panels are halved until they are exact. Volume without a waterplane, or a waterplane without volume, would stay.
 #[test]
+fn volumes_of_a_tug_are_integrals_of_its_waterplanes() {
+    volumes_are_integrals(&["tug"]);
+}
+
+#[test]
+#[ignore = "takes 60 s"]
 fn volumes_are_integrals_of_waterplanes() {
-    for name in ["tug", "yacht", "fishing-vessel", "frigate", "container-ship", "bulk-carrier", "ellipsoid"] {
+    volumes_are_integrals(&["yacht", "fishing-vessel", "frigate", "container-ship", "bulk-carrier", "ellipsoid"]);
+}
+
+fn volumes_are_integrals(names: &[&str]) {
+    for name in names {
         let body = read_hydrostatic_body(&carried(format!("configs/{name}.toml"))).unwrap();
         let hull = body.hull().unwrap();
         let (low, high) = (hull.bottom(), hull.top());
@@ -401,7 +411,7 @@ fn volumes_are_integrals_of_waterplanes() {
             let found = added(&body, &panels);
             let mut left = Vec::new();
             for (&[a, b], [volume, integral]) in panels.iter().zip(found) {
-                if (volume - integral).abs() > 1e-8 * whole && round < 17 {
+                if (volume - integral).abs() > 3e-8 * whole && round < 17 {
                     left.extend([[a, 0.5 * (a + b)], [0.5 * (a + b), b]]);
                 } else {
                     sum += volume - integral;
