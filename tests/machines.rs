@@ -321,6 +321,15 @@ fn gm_is_shown_where_kg_is_known_and_marked_where_it_is_small() {
     let tender = page(&["--kg", "3.7"]);
     assert!(tender.contains("GM is below 0.15 m") && tender.contains("at T 3.000 m."), "{tender}");
     assert!(!tender.contains('\u{1b}'), "no colour where nobody looks");
+    // The report marks the same rows.
+    let folder = folder("gm-report");
+    let rows = program(&["hydro", path.to_str().unwrap(), "--draughts", "3,6.25", "--kg", "3.7", "--json"]);
+    let result = folder.write("rows.json", stdout(&rows));
+    let to = folder.join("report").display().to_string();
+    let output = program(&["report", &result, "-o", &to, "--dpi", "20", "--quiet"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let html = folder.read("report/report.html");
+    assert!(html.contains("<p class=\"bad\">GM is below 0.15 m, the least of the IS Code, at T 3.000 m"), "not marked");
 }
 
 #[test]

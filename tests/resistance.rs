@@ -125,6 +125,8 @@ fn the_page_has_inputs_table_and_limits() {
         "Regression of models",
     ];
     assert!(words.iter().all(|word| page.contains(word)), "{page}");
+    let length = page.lines().find(|line| line.starts_with("LPP")).expect("a line of L_PP");
+    assert!(length.contains("230.000 m") && length.contains("given; length between perpendiculars"), "{length}");
     let longest = page.lines().map(|line| line.chars().count()).max().unwrap();
     assert!(longest <= 100, "{longest}: {page}");
     let friction = run(&[&hull, "--speeds", "12", "--method", "ittc-57", "--form-factor", "1.2"]);

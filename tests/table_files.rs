@@ -6,7 +6,7 @@ use loftsman::exchange::{Severity, TableWriting, read_table, write_table};
 use loftsman::hull::{Cell, TableLayout};
 use loftsman::units::Notation;
 
-use crate::support::{carried, convert, folder, read_text, stderr, stdout};
+use crate::support::{carried, convert, folder, program, read_text, stderr, stdout};
 
 fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0u32, |crc, &byte| {
@@ -138,7 +138,13 @@ fn workbooks_that_cannot_be_read() {
     };
     let date = "<row r=\"1\"><c r=\"A1\" t=\"inlineStr\"><is><t>x</t></is></c><c r=\"B1\"><v>1</v></c></row>\
                 <row r=\"2\"><c r=\"A2\"><v>0</v></c><c r=\"B2\" t=\"d\"><v>2005-03-04T00:00:00</v></c></row>";
-    assert!(message(&workbook(date, 0)).contains("E301 t.xlsx row 2, column 2: the cell is a date"));
+    assert!(message(&workbook(date, 0)).contains("E317 t.xlsx row 2, column 2: the cell is a date"));
+    // A refusal of input, and no list of cells.
+    let folder = folder("dates");
+    let path = folder.write("dates.xlsx", workbook(date, 0));
+    let done = program(&["check", &path]);
+    assert_eq!(done.status.code(), Some(3), "{}", stderr(&done));
+    assert!(stderr(&done).contains("E317") && stderr(&done).contains("may be 3-4-5 or 4-3-5"), "{}", stderr(&done));
     let far = "<row r=\"1\"><c r=\"XFD1\"><v>1</v></c></row>";
     assert!(message(&workbook(far, 0)).contains("E312 t.xlsx row 1, column 16384"));
     let deep = "<row r=\"1048576\"><c r=\"A1048576\"><v>1</v></c></row>";

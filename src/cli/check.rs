@@ -41,9 +41,10 @@ pub(super) struct Arguments {
 
 const AFTER: &str = "\
 Judged are offsets on waterlines (S1, S2, ...) and heights at buttocks (H1, ...), each against its neighbours in both directions, \
-and sections as points (P1, ...), each point against the section through the others.
-JSON: judged, heights_judged, points_judged, points_not_judged, noise, suspects (id, of half-breadth, height or point; station, \
-waterline or buttock, row, column, or branch, point, number, y, z; written, expected, score, hypothesis, proposed, probability, \
+and sections as points (P1, ...), each point against the section through the others. Tables of lines, as boats have them, are \
+judged along each line: its heights and its half-breadths (P1, ...).
+JSON: judged, heights_judged, points_judged, points_not_judged, noise, suspects (id, of half-breadth, height, point or line; station, \
+waterline or buttock, row, column, or branch, point, number, y, z, line; written, expected, score, hypothesis, proposed, probability, \
 hypotheses), problems (code, row, message), lines (kind knuckle or tangent, course waterline or station, at, from, to, gain).
 Exit code 5 with suspects or with problems of cells, 3 where the file has no table; remarks on how the file was read do not count.
 Read are CSV and TSV (matrix, one offset a line, sections as points), XLSX, GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text \

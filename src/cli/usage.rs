@@ -33,6 +33,15 @@ fn words(value: Option<&ContextValue>) -> String {
     }
 }
 
+/// What to do about a value that an option does not take.
+fn of_value(key: &str, valid: &str) -> String {
+    match (key, valid) {
+        ("", "") => "The command describes its options with --help".to_owned(),
+        (key, "") => format!("Correct the value of {key}, which the command describes with --help"),
+        (_, valid) => format!("Give one of {valid}"),
+    }
+}
+
 /// The failure of a command line. Its message is what the parser says of it, without its heading.
 pub(super) fn failure(error: &clap::Error) -> Failure {
     let text = error.render().to_string();
@@ -44,15 +53,23 @@ pub(super) fn failure(error: &clap::Error) -> Failure {
     let found = words(error.get(ContextKind::InvalidValue));
     let valid = words(error.get(ContextKind::ValidValue));
     let expected = if valid.is_empty() { String::new() } else { format!("; expected {valid}") };
+    // The list of what is possible stands behind `expected`.
+    let message = match message.split_once(" [possible values:") {
+        Some((before, _)) => before.to_owned(),
+        None => message,
+    };
+    let key = words(invalid.into_iter().find_map(|kind| error.get(kind)));
+    let code = code(error.kind());
+    let help = if code == "E703" { of_value(&key, &valid) } else { help.trim().to_owned() };
     Failure::Options(vec![Diagnostic {
         severity: Severity::Error,
-        code: code(error.kind()),
+        code,
         file: COMMAND_LINE.to_owned(),
         line: None,
         column: None,
-        key: words(invalid.into_iter().find_map(|kind| error.get(kind))),
+        key,
         message: format!("{message}{expected}"),
         found,
-        help: help.trim().to_owned(),
+        help,
     }])
 }

@@ -45,6 +45,6 @@ mod unbroken;
 pub use lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
 pub use run::Progress;
 pub use suspects::{
-    CellVerdict, Hypothesis, PointNumber, PointSuspect, PointSuspects, Reading, Suspect, Suspects, height_grid,
-    height_suspects, point_suspects, suspects,
+    CellVerdict, Hypothesis, LinePlace, PointNumber, PointSuspect, PointSuspects, Reading, Suspect, Suspects,
+    height_grid, height_suspects, point_suspects, suspects,
 };

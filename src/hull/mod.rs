@@ -61,5 +61,7 @@ pub use particulars::{NO_DRAUGHT, PrincipalParticulars};
 pub use section::{Branch, Cut, Face, Section};
 pub use solid::{Edge, Solid, SolidFace};
 pub use subdivision::{NetEdge, NetFace, NetLayer, NetPointKind, SubdivisionNet};
-pub use table_form::{Kept, Order, Program, Rows, SideKind, SideLine, StationDatum, TableForm, TableLayout};
+pub use table_form::{
+    Kept, Order, Program, Rows, SideKind, SideLine, StationDatum, TableForm, TableLayout, WrittenLine, WrittenPoint,
+};
 pub use triangles::{BodyPart, InnerShells, MeshLine, TriangleMesh, triangle_area};

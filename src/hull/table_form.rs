@@ -1,6 +1,7 @@
 //! How a table of offsets was written: its layout, orders, units and header texts, so that it can be written back the
 //! same way.
 
+use super::cell::Written;
 use crate::units::{CellRules, Notation};
 
 /// In which shape offsets stand in a file.
@@ -127,6 +128,26 @@ pub struct SideLine {
     pub texts: Vec<Option<Kept>>,
 }
 
+/// A line of a boat, its half-breadths and heights as they were written: the rows `chine` of a table of lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenLine {
+    /// Its name.
+    pub name: String,
+    /// Its points, one a station, from aft forward.
+    pub points: Vec<WrittenPoint>,
+}
+
+/// A point of a line of a boat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenPoint {
+    /// Index of its station in the table.
+    pub station: usize,
+    /// Half-breadth and height \[m\].
+    pub given: [f64; 2],
+    /// Their cells; none where no cell gives the number.
+    pub cells: [Option<Written>; 2],
+}
+
 /// How a table was written, so that it can be written back the same way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableForm {
@@ -184,6 +205,8 @@ pub struct TableForm {
     pub buttock_heads: Vec<Kept>,
     /// Side columns of the heights at buttocks.
     pub buttock_columns: Vec<SideLine>,
+    /// Lines of a boat, whose points are in the sections.
+    pub boat_lines: Vec<WrittenLine>,
 }
 
 impl Default for TableForm {
@@ -217,6 +240,7 @@ impl Default for TableForm {
             buttock_corner: None,
             buttock_heads: Vec::new(),
             buttock_columns: Vec::new(),
+            boat_lines: Vec::new(),
         }
     }
 }

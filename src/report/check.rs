@@ -95,7 +95,8 @@ pub fn check_table_with(path: &Path, conventions: &Overrides) -> Result<Check, F
                     .collect(),
             })
         }
-        Err(Failure::Input(messages)) if messages.iter().any(is_of_a_line) => {
+        // Cells that hold no number as they were typed are no errors of typing: the file is refused.
+        Err(Failure::Input(messages)) if messages.iter().any(is_of_a_line) && !messages.iter().any(is_refusal) => {
             let (errors, warnings): (Vec<_>, Vec<_>) =
                 messages.into_iter().partition(|message| message.severity == config::Severity::Error);
             Ok(Check {
@@ -110,6 +111,10 @@ pub fn check_table_with(path: &Path, conventions: &Overrides) -> Result<Check, F
         }
         Err(failure) => Err(failure),
     }
+}
+
+fn is_refusal(message: &Diagnostic) -> bool {
+    message.code == "E317"
 }
 
 fn is_of_a_line(message: &Diagnostic) -> bool {
@@ -178,10 +183,14 @@ impl Check {
         [verdicts(self.suspects.as_ref()), verdicts(self.heights.as_ref()), points]
     }
 
-    /// The number of points of sections in the table that have too few neighbours to be judged.
+    /// The number of points of sections, or of numbers of lines, that have too few neighbours to be judged.
     #[must_use]
     pub fn points_not_judged(&self) -> usize {
-        self.table.as_ref().map_or(0, OffsetTable::point_count).saturating_sub(self.judged()[2])
+        let all = |table: &OffsetTable| {
+            let cells = table.form.boat_lines.iter().flat_map(|line| &line.points).flat_map(|point| &point.cells);
+            if table.form.boat_lines.is_empty() { table.point_count() } else { cells.flatten().count() }
+        };
+        self.table.as_ref().map_or(0, all).saturating_sub(self.judged()[2])
     }
 
     /// The failure that ends the program when there are suspects or problems, those that were accepted apart.
@@ -256,16 +265,17 @@ pub fn check_page(check: &Check) -> String {
                 1000.0 * found.noise
             ));
         }
+        let (noun, along) = match table.form.boat_lines.is_empty() {
+            true => ("point", "of sections judged along their sections"),
+            false => ("number", "of lines judged along their lines"),
+        };
         if let Some(found) = &check.points {
-            page.push_str(&format!(
-                "{} of sections judged along their sections; noise {:.2} mm\n",
-                counted(points, "point"),
-                1000.0 * found.noise
-            ));
+            page.push_str(&format!("{} {along}; noise {:.2} mm\n", counted(points, noun), 1000.0 * found.noise));
         }
         let left = check.points_not_judged();
         if left > 0 {
-            page.push_str(&format!("{} of sections NOT judged: too few points beside them\n", counted(left, "point")));
+            let of = along.split(" judged").next().unwrap_or_default();
+            page.push_str(&format!("{} {of} NOT judged: too few beside them\n", counted(left, noun)));
         }
         for (grid, suspect) in check.cells() {
             page.push_str(&suspect_lines(table, grid, suspect));
@@ -337,6 +347,25 @@ fn named_readings(readings: &[Reading]) -> String {
 
 fn point_lines(table: &OffsetTable, suspect: &PointSuspect) -> String {
     let [[y, z], [near_y, near_z]] = [suspect.given, suspect.expected];
+    if let Some(place) = &suspect.line {
+        let index = usize::from(suspect.number == PointNumber::Height);
+        let text = format!(
+            "\n{:<4} station {}, {} (row {}, column {}): {}\n     \
+             expected {:.4} m ± {:.1} mm along the line, off by {:+.4} m = {:+.1} local noise, wrong with p {}\n",
+            suspect.id,
+            table.stations[suspect.station].station.name,
+            point_name(suspect),
+            place.row,
+            place.column,
+            suspect.written,
+            suspect.expected[index],
+            1000.0 * suspect.noise,
+            suspect.given[index] - suspect.expected[index],
+            suspect.score,
+            probability(suspect.probability)
+        );
+        return text + &named_readings(&suspect.readings);
+    }
     let text = format!(
         "\n{:<4} station {}, {}: y {y:.4}, z {z:.4} m\n     \
          {:.4} m off the section, which passes y {near_y:.4}, z {near_z:.4} m\n     \
@@ -351,8 +380,12 @@ fn point_lines(table: &OffsetTable, suspect: &PointSuspect) -> String {
     text + &named_readings(&suspect.readings)
 }
 
-/// Points and branches count from 0, as in files that number them.
+/// A number of a line, or a point. Points and branches count from 0, as in files that number them.
 fn point_name(suspect: &PointSuspect) -> String {
+    if let Some(place) = &suspect.line {
+        let number = if suspect.number == PointNumber::Height { "height" } else { "half-breadth" };
+        return format!("{number} of the {}", place.name);
+    }
     match suspect.branch {
         0 => format!("point {}", suspect.point),
         branch => format!("branch {branch}, point {}", suspect.point),
@@ -413,7 +446,9 @@ fn point_json(table: &OffsetTable, suspect: &PointSuspect) -> Value {
     let station = &table.stations[suspect.station].station;
     let [[y, z], [near_y, near_z]] = [suspect.given, suspect.expected];
     json!({
-        "id": suspect.id, "of": "point", "station": station.x, "station_name": station.name,
+        "id": suspect.id, "of": if suspect.line.is_some() { "line" } else { "point" },
+        "station": station.x, "station_name": station.name, "line": suspect.line.as_ref().map(|place| &place.name),
+        "row": suspect.line.as_ref().map(|place| place.row), "column": suspect.line.as_ref().map(|place| place.column),
         "branch": suspect.branch, "point": suspect.point, "number": suspect.number.as_str(),
         "written": suspect.written, "y": y, "z": z, "expected": { "y": near_y, "z": near_z },
         "distance": suspect.distance, "noise": suspect.noise, "score": suspect.score,

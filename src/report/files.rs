@@ -61,12 +61,25 @@ impl Inputs {
     /// Those of these paths that are there.
     #[must_use]
     pub fn of<P: AsRef<Path>>(paths: &[P]) -> Self {
-        Self(paths.iter().filter_map(|path| Path::new(".").join(path).canonicalize().ok()).collect())
+        Self(paths.iter().filter_map(|path| true_path(&Path::new(".").join(path))).collect())
     }
 
     fn has(&self, path: &Path) -> bool {
-        path.canonicalize().is_ok_and(|path| self.0.contains(&path))
+        true_path(path).is_some_and(|path| self.0.contains(&path))
     }
+}
+
+#[cfg(test)]
+thread_local! {
+    /// How often the true path of a file was looked up.
+    static LOOKED_UP: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
+/// The true path of a file that is there.
+fn true_path(path: &Path) -> Option<PathBuf> {
+    #[cfg(test)]
+    LOOKED_UP.with(|count| count.set(count.get() + 1));
+    path.canonicalize().ok()
 }
 
 /// Where the files of a run go.
@@ -170,5 +183,33 @@ impl Destination<'_> {
         }
         made.keep();
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Looked up for runs over so many designs that are files, each of which writes ten files.
+    fn looked_up(runs: usize) -> usize {
+        let folder = std::env::temp_dir().join(format!("loftsman-lookups-{}-{runs}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let designs: Vec<PathBuf> = (0..runs).map(|k| folder.join(format!("{k}.toml"))).collect();
+        designs.iter().for_each(|path| fs::write(path, "").unwrap());
+        let before = LOOKED_UP.with(std::cell::Cell::get);
+        let inputs = Inputs::of(&designs);
+        let names: Vec<String> = (0..10).map(|k| format!("{k}.csv")).collect();
+        for k in 0..runs {
+            let to = Destination { folder: &folder.join(k.to_string()), inputs: &inputs, force: false };
+            to.check(names.iter().map(String::as_str)).unwrap();
+        }
+        fs::remove_dir_all(&folder).unwrap();
+        LOOKED_UP.with(std::cell::Cell::get) - before
+    }
+
+    #[test]
+    fn many_designs_cost_no_more_paths_each_than_one() {
+        let one = looked_up(1);
+        assert_eq!(looked_up(200), 200 * one);
     }
 }

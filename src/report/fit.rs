@@ -14,7 +14,9 @@ use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::overshoot;
 use super::page::{WIDTH, conventions_line, dimensions, no_draught, quantities, wrapped};
 use super::result_files::source_words;
-use super::source::{Overrides, is_toml, read_bytes, read_table_stated, remark, ship_name, source_files, utf8};
+use super::source::{
+    Overrides, is_toml, read_bytes, read_table_stated, refuse_design, remark, ship_name, source_files, utf8,
+};
 use super::verdict::unusual;
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
@@ -85,6 +87,7 @@ pub struct FitOutputs {
 
 fn read_method_file(path: &Path, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFile, Failure> {
     let bytes = read_bytes(path)?;
+    refuse_design(path, &bytes)?;
     inputs.push(manifest_entry(path, &bytes));
     let text = utf8(path, bytes)?;
     config::read_method(&path.display().to_string(), &text).map_err(Failure::Input)

@@ -170,12 +170,15 @@ pub(super) fn quantities(row: &Hydrostatics, conventions: &Conventions, length: 
 
 /// A line that marks rows with too little GM; empty where there are none.
 fn tender<'r>(rows: impl IntoIterator<Item = &'r Hydrostatics>) -> String {
+    tender_words(rows).map_or_else(String::new, |words| wrapped(&words, 2))
+}
+
+/// The sentence of that line; none where no row has too little GM.
+pub(super) fn tender_words<'r>(rows: impl IntoIterator<Item = &'r Hydrostatics>) -> Option<String> {
     let rows = rows.into_iter().filter(|row| row.is_tender());
     let draughts: Vec<String> = rows.map(|row| format!("{} m", value(row, "T"))).collect();
-    if draughts.is_empty() {
-        return String::new();
-    }
-    wrapped(&format!("{TENDER} {LEAST_GM} m, the least of the IS Code, at T {}.", draughts.join(", ")), 2)
+    let words = || format!("{TENDER} {LEAST_GM} m, the least of the IS Code, at T {}.", draughts.join(", "));
+    (!draughts.is_empty()).then(words)
 }
 
 /// How the line begins that marks too little GM.

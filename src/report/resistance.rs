@@ -14,7 +14,8 @@ use crate::hull::Hull;
 use crate::hydrostatics::Hydrostatics;
 use crate::plot::{ResistanceSheet, resistance_figure};
 use crate::resistance::{
-    Method, Prediction, PredictionInput, PredictionRow, ShipFault, ThinShip, ViscousOverrides, limits, predict,
+    InputOrigin, Method, Prediction, PredictionInput, PredictionRow, ShipFault, ThinShip, ViscousOverrides, limits,
+    predict,
 };
 use crate::units::KNOT;
 
@@ -108,7 +109,8 @@ pub fn resistance_outputs(job: &ResistanceJob) -> Result<ResistanceOutputs, Fail
     let prediction = predict(job.method, &gathered.ship, thin.as_ref(), &speeds, &gathered.water, overrides)
         .map_err(|faults| undefined(job, &faults))?;
     let (form_factor, allowance) = notes_on_viscous(job.method, &gathered, &prediction);
-    let mut inputs = gathered.inputs.clone();
+    let mut inputs = vec![between_perpendiculars(&body)];
+    inputs.extend(gathered.inputs.iter().cloned());
     inputs.extend(viscous_inputs(&job.options, form_factor, allowance));
     let mut warnings: Vec<String> = body.warnings().chain(warned).collect();
     warnings.extend(warnings_of(job, &gathered, &prediction, row).iter().map(ToString::to_string));
@@ -118,6 +120,24 @@ pub fn resistance_outputs(job: &ResistanceJob) -> Result<ResistanceOutputs, Fail
     let input = if job.hull.is_dir() { job.hull.join("hull.json") } else { job.hull.clone() };
     let efficiency = job.options.efficiency;
     Ok(ResistanceOutputs { name, method: job.method, inputs, rows, efficiency, warnings, notes, input })
+}
+
+/// L_PP, which the formulas do not take: its origin belongs on each page.
+fn between_perpendiculars(body: &HydrostaticBody) -> PredictionInput {
+    let (given, assumed) = (body.conventions.given.length, body.conventions.assumed.length);
+    PredictionInput {
+        symbol: "LPP",
+        name: "length between perpendiculars",
+        value: body.particulars.length_between_perpendiculars,
+        unit: "m",
+        decimals: 3,
+        origin: match (given, assumed) {
+            (true, _) => InputOrigin::Given,
+            (false, true) => InputOrigin::Assumed,
+            (false, false) => InputOrigin::FromHull,
+        },
+        note: "the formulas take L",
+    }
 }
 
 /// The hull for thin-ship theory: of a body of triangles the surface through its sections.

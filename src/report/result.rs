@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::failure::{Failure, problem};
 use super::files::MANIFEST;
 use super::generate::manifest_entry;
-use super::source::{AGAIN, hull_faults, read_bytes, utf8};
+use super::source::{AGAIN, hull_faults, is_toml, read_bytes, utf8};
 use crate::exchange::{
     FairingFile, HullFile, ManifestEntry, json_message, read_changes, read_fairing, read_hull, read_manifest_input,
     read_manifest_outputs, sha256,
@@ -125,6 +125,7 @@ pub fn read_result(path: &Path) -> Result<JobResult, Failure> {
     }
     let mut reader = beside(folder);
     let text = reader.text(path)?;
+    refuse_input(path, &text)?;
     let value = json(path, &text)?;
     if value["format"] == "loftsman-hull" {
         let HullFile { hull, conventions } = hull_of(path, &text)?;
@@ -160,6 +161,18 @@ pub fn read_result(path: &Path) -> Result<JobResult, Failure> {
     }
     let HullFile { hull, conventions } = hull_of(path, &value["hull"].to_string())?;
     Ok(JobResult { draughts, ..bare(hull, conventions, reader.inputs) })
+}
+
+/// Refuses a design or a table, which are no result: with the command that makes one of it.
+fn refuse_input(path: &Path, text: &str) -> Result<(), Failure> {
+    if text.trim_start().starts_with('{') {
+        return Ok(());
+    }
+    let (found, command) = if is_toml(path) { ("a design or a job", "generate") } else { ("a table or a body", "fit") };
+    let name = path.display();
+    let message = format!("found {found}; expected a result of a command");
+    let remedy = format!("Run `loftsman {command} {name} -o FOLDER`, then `loftsman report FOLDER`");
+    Err(Failure::Input(vec![problem("E182", path, message, remedy)]))
 }
 
 fn bare(hull: Hull, conventions: Conventions, inputs: Vec<ManifestEntry>) -> JobResult {

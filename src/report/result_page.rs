@@ -4,7 +4,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
-use super::page::{fixed, unit};
+use super::page::{fixed, tender_words, unit};
 use super::result::JobResult;
 use super::result_figures::ReportFigure;
 use super::verdict::{is_warning, verdict};
@@ -94,6 +94,11 @@ pub(super) fn hydrostatics(curves: &CurvesOfForm, design: Option<f64>) -> Table 
         (design.is_some_and(|design| (row.draught - design).abs() < 1e-9), cells.collect())
     };
     Table { heads, words: 0, rows: curves.rows.iter().map(row).collect() }
+}
+
+/// A table with the line that marks too little GM, where it has rows with that.
+fn marked<'r>(table: String, rows: impl IntoIterator<Item = &'r Hydrostatics>) -> String {
+    tender_words(rows).map_or_else(|| table.clone(), |words| format!("<p class=\"bad\">{words}</p>\n{table}"))
 }
 
 /// The design condition, that before fairing where there is one, and what was asked for where something was.
@@ -489,9 +494,10 @@ pub(super) fn report_page(
         sections.push(("inflections", "Inflections", format!("{words}{}", inflections(record, fairing, false).html())));
     }
     if let Some(design) = design {
-        sections.push(("condition", "Design condition", condition(result, design, before).html()));
+        let table = condition(result, design, before).html();
+        sections.push(("condition", "Design condition", marked(table, [design])));
     }
-    sections.push(("table", "Hydrostatic table", hydrostatics(curves, p.draught).html()));
+    sections.push(("table", "Hydrostatic table", marked(hydrostatics(curves, p.draught).html(), &curves.rows)));
     let words = "<p>Metres; x forward of AP, z from the base line, y and distances from the centreplane, diagonals by their height there.</p>\n";
     for (id, title, table) in offsets {
         sections.push((id, title, format!("{words}{}", table.html())));

@@ -400,7 +400,22 @@ pub fn read_table_file(path: &Path) -> Result<(OffsetTable, Vec<TableProblem>), 
 /// # Errors
 /// Those of [`read_table_file`].
 pub fn read_table_file_with(path: &Path, overrides: &Overrides) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
-    table_of(path, &read_bytes(path)?, overrides)
+    let bytes = read_bytes(path)?;
+    refuse_design(path, &bytes)?;
+    table_of(path, &bytes, overrides)
+}
+
+/// Refuses a design where a table of offsets is read: with what to do instead.
+pub(super) fn refuse_design(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let is_key = |line: &str| ["[project]", "[form]", "[water]", "[output]"].contains(&line.trim());
+    if !is_toml(path) || !String::from_utf8_lossy(bytes).lines().any(is_key) {
+        return Ok(());
+    }
+    let message = "the file is a design, and no table of offsets".to_owned();
+    let name = path.display();
+    let remedy =
+        format!("Run `loftsman generate {name}` and give the offsets.csv that it writes, or `loftsman hydro {name}`");
+    Err(Failure::Input(vec![problem("E300", path, message, remedy)]))
 }
 
 /// The same, with main dimensions over those that the table states, which the job or method file `by` says, or the

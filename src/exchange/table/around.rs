@@ -45,7 +45,10 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
     }
     let says_half = corner.is_some_and(|text| text.text.to_lowercase().contains("half"));
     let titles = texts().filter(|text| says_breadths(&text.text, false));
-    let open = titles.chain(corner.filter(|text| says_breadths(&text.text, true))).next();
+    let heads = heads.into_iter().flatten().skip(1).filter(|text| names_breadths(&text.text));
+    let rows = pieces.tables.first().into_iter().flat_map(|piece| &piece.rows).skip(1);
+    let rows = rows.filter_map(|row| row.first()).filter(|text| names_breadths(&text.text));
+    let open = titles.chain(corner.filter(|text| says_breadths(&text.text, true))).chain(heads).chain(rows).next();
     if let Some(text) = open.filter(|_| settings.full.is_none() && !says_half) {
         problems.warning("W320", text.place(), half_taken(text.trimmed()), HALF_OR_FULL);
     }
@@ -66,6 +69,14 @@ fn says_breadths(text: &str, is_header: bool) -> bool {
     let has_number = lower.bytes().any(|b| b.is_ascii_digit());
     let is_dimension = has_number || lower.contains(['=', ':']) || lower.contains("mould") || lower.contains("mold");
     !lower.contains("half") && !is_dimension && side_of(text).is_none() && words.any(says)
+}
+
+/// Whether the header of a line of offsets says breadth or beam: `Beam at 2 m`.
+fn names_breadths(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphabetic());
+    let is_half = lower.contains("half") || lower.contains("semi");
+    !is_half && side_of(text).is_none() && words.any(|word| matches!(word, "breadth" | "beam" | "width"))
 }
 
 /// The unit of half-breadths where a header states it apart from that of the positions: `x [m]; half-breadths in mm`.

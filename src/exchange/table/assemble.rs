@@ -76,7 +76,12 @@ impl<'a> TableReader<'a> {
                 self.writings[0] += 1;
             }
             CellWriting::Eighths => self.writings[1] += 1,
-            CellWriting::WithUnit | CellWriting::Nothing => {}
+            CellWriting::WithUnit => {
+                if let Some(decimals) = decimals_in(field.trimmed(), unit) {
+                    self.digits[decimals.min(17)] += 1;
+                }
+            }
+            CellWriting::Nothing => {}
         }
         let share = if half && self.form.full_breadths { 0.5 } else { 1.0 };
         let entry = match reading.entry {
@@ -138,7 +143,11 @@ impl<'a> TableReader<'a> {
                 Ok(position) => list.push(position),
                 Err(error) => {
                     let message = format!("the header of a {what} names no position: {error}");
-                    let remedy = super::settings::suggestion(field.trimmed());
+                    let is_end = what == "station" && super::boat::end_of(field.trimmed()) != 0;
+                    let remedy = match is_end {
+                        true => format!("Write the position behind the name, as {} (2.50 m)", field.trimmed()),
+                        false => super::settings::suggestion(field.trimmed()),
+                    };
                     self.problems.error("E310", field, message, &remedy);
                 }
             }
@@ -156,9 +165,18 @@ impl<'a> TableReader<'a> {
             self.form.notation = Notation::FeetInchesEighths;
         }
         let most = (1..self.digits.len()).filter(|&d| self.digits[d] > 0).max_by_key(|&d| (self.digits[d], d));
-        self.form.decimals = (self.form.notation != Notation::FeetInchesEighths).then_some(most.unwrap_or(0));
+        // Where nothing is a plain number, nothing tells the digits.
+        let counts = self.form.notation != Notation::FeetInchesEighths && self.digits.iter().any(|count| *count > 0);
+        self.form.decimals = counts.then_some(most.unwrap_or(0));
         self.form
     }
+}
+
+/// The digits after the decimal sign of `3.211 m`, where the unit is that of the table.
+fn decimals_in(text: &str, unit: Notation) -> Option<usize> {
+    let (number, word) = text.split_at(text.find(|c: char| c.is_alphabetic())?);
+    let digits = number.trim().split_once(['.', ',']).map_or(0, |(_, digits)| digits.len());
+    (Notation::from_word(word.trim()) == Some(unit)).then_some(digits)
 }
 
 /// The order of positions, when they rise or fall; otherwise the errors are noted.

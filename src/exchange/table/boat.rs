@@ -10,8 +10,10 @@
 //! ```
 //!
 //! The group may stand in a column of its own, in a row of its own, or in the name (`height of sheer`). Rows of half-breadths
-//! at waterlines and of heights at buttocks belong to the sections as well. Chines and knuckles are knuckles; without
+//! at waterlines and of heights at buttocks belong to the sections as well, and those of diagonals that words define. Chines and knuckles are knuckles; without
 //! waterlines and buttocks all lines between the lowest and the highest are, with straight panels between them.
+
+mod diagonals;
 
 use super::around::{UPWARD, says_full};
 use super::assemble::{TableReader, order};
@@ -24,7 +26,10 @@ use super::scale::{Size, ends_from_midship, units};
 use super::settings::Settings;
 use std::borrow::Cow;
 
-use crate::hull::{Kept, Marks, OffsetTable, Order, OutlinePoint, StationOffsets, TableForm, TableLayout};
+use crate::hull::{
+    Entry, Kept, Marks, OffsetTable, Order, OutlinePoint, StationOffsets, TableForm, TableLayout, Written, WrittenLine,
+    WrittenPoint,
+};
 
 /// Fewer lines with heights and half-breadths are the side rows of a matrix.
 const LEAST_LINES: usize = 2;
@@ -55,6 +60,8 @@ struct Lines<'g> {
     rows: Vec<Row<'g>>,
     /// All labels, those of groups among them.
     labels: Vec<&'g Field>,
+    /// What words say of where diagonals lie.
+    definitions: Vec<String>,
 }
 
 fn words(text: &str) -> Vec<String> {
@@ -72,19 +79,23 @@ fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
     let mut rest = Vec::new();
     let mut has_origin = false;
     for word in words(text) {
-        match word.as_str() {
+        match word.trim_end_matches('.') {
             "above" | "below" => has_origin = true,
             // From where heights count.
             "bl" | "dwl" | "lwl" | "wl" | "waterline" if has_origin => {}
-            "height" | "heights" | "ht" | "hts" | "hab" => group = group.or(Some(Group::Heights)),
-            "half" | "hb" | "breadth" | "breadths" | "halfbreadth" | "halfbreadths" | "width" | "widths"
-            | "halfwidth" | "halfwidths" => group = Some(Group::HalfBreadths),
+            "height" | "heights" | "ht" | "hts" | "hab" | "elevation" | "elevations" => {
+                group = group.or(Some(Group::Heights))
+            }
+            "half" | "halves" | "semi" | "semibreadth" | "semibreadths" | "hb" | "breadth" | "breadths"
+            | "halfbreadth" | "halfbreadths" | "width" | "widths" | "halfwidth" | "halfwidths" => {
+                group = Some(Group::HalfBreadths)
+            }
             "diagonal" | "diagonals" | "diag" => group = Some(Group::Diagonals),
-            "length" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
+            "length" | "dist" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
                 group = group.or(Some(Group::Positions));
             }
             "of" | "full" | "whole" | "base" | "baseline" | "line" | "at" | "from" | "centreline" | "centerline"
-            | "c.l." | "cl" => {}
+            | "c.l" | "cl" => {}
             _ => rest.push(word),
         }
     }
@@ -125,7 +136,7 @@ fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
         }
         list.push(Row { group: own.or(group), name: name.join(" "), label, cells });
     }
-    Some(Lines { heads: &head[labels..], rows: list, labels: all })
+    Some(Lines { heads: &head[labels..], rows: list, labels: all, definitions: Vec::new() })
 }
 
 impl Lines<'_> {
@@ -154,7 +165,7 @@ fn across(row: &Row<'_>) -> Option<Position> {
 
 /// Whether rows are lines with heights and half-breadths.
 pub(super) fn is_boat(rows: &[Vec<Field>]) -> bool {
-    !settled(rows).is_empty()
+    !settled(&diagonals::without_definitions(rows).0).is_empty()
 }
 
 /// The rows of the file, or its columns where its stations stand below each other.
@@ -178,20 +189,24 @@ fn settled(rows: &[Vec<Field>]) -> Cow<'_, [Vec<Field>]> {
 }
 
 /// Which end the name of a station is: -1 aft, 1 forward.
-fn end_of(name: &str) -> i32 {
+pub(super) fn end_of(name: &str) -> i32 {
     match words(name).first().map(String::as_str) {
-        Some("stem" | "bow" | "fp" | "f.p." | "forward") => 1,
+        Some("stem" | "bow" | "fp" | "f.p." | "forward" | "fwd") => 1,
         Some("transom" | "stern" | "sternpost" | "ap" | "a.p." | "aft") => -1,
         _ => 0,
     }
 }
 
-/// A point of a section with the name of its line; empty for waterlines and buttocks.
+/// A point of a section with the name of its line.
 struct LinePoint {
     station: usize,
     name: String,
+    /// Whether the line is a waterline, a buttock or a diagonal.
+    is_cut: bool,
     y: f64,
     z: f64,
+    /// Where its half-breadth and its height are written.
+    cells: [Option<Written>; 2],
 }
 
 /// Refuses heights that count downward.
@@ -204,12 +219,15 @@ fn refuse_downward(lines: &Lines<'_>, problems: &mut Problems) {
 /// The table of a file of lines.
 pub(super) fn read(
     rows: &[Vec<Field>],
+    comments: &[(usize, String)],
     form: TableForm,
     settings: &Settings,
     problems: &mut Problems,
 ) -> Option<OffsetTable> {
-    let rows = settled(rows);
-    let lines = lines(&rows)?;
+    let (kept, mut definitions) = diagonals::without_definitions(rows);
+    definitions.extend(comments.iter().map(|(_, text)| text.clone()));
+    let rows = settled(&kept);
+    let lines = Lines { definitions, ..lines(&rows)? };
     refuse_downward(&lines, problems);
     let full = breadths(&lines, settings, problems);
     let settings = &Settings { full: Some(full), ..settings.clone() };
@@ -235,8 +253,9 @@ pub(super) fn read(
     let names: Vec<&str> = heads.iter().map(|(at, _)| lines.heads[*at].trimmed()).collect();
     crossings(&points, &names, reader.problems);
     let direction = order(&xs, &fields, "station", reader.problems)?;
-    let has_cuts = points.iter().any(|point| point.name.is_empty());
+    let has_cuts = points.iter().any(|point| point.is_cut);
     let mut table = OffsetTable::default();
+    let mut kept: Vec<usize> = Vec::new();
     for (k, ((at, _), x)) in heads.iter().zip(&xs).enumerate() {
         let name = lines.heads[*at].trimmed();
         let outline = outline(points.iter().filter(|point| point.station == k), has_cuts);
@@ -246,12 +265,19 @@ pub(super) fn read(
             continue;
         }
         table.stations.push(StationOffsets { outlines: vec![outline], ..StationOffsets::new(name, *x) });
+        kept.push(k);
     }
     if direction == Order::Falling {
         table.stations.reverse();
+        kept.reverse();
     }
-    let from = positions_row.map(|row| end_of(&row.name));
-    turn(&mut table, settings, from, reader.problems);
+    // `forward of transom` counts from the transom.
+    let counts_from = |row: &Row<'_>| words(&row.name).iter().rev().map(|word| end_of(word)).find(|end| *end != 0);
+    let from = positions_row.map(|row| counts_from(row).unwrap_or(0));
+    if turn(&mut table, settings, from, reader.problems) {
+        kept.reverse();
+    }
+    reader.form.boat_lines = written_lines(&points, &kept);
     reader.form.station_order = direction;
     reader.form.station_heads =
         table.stations.iter().map(|s| Kept { text: s.station.name.clone(), value: s.station.x }).collect();
@@ -295,7 +321,8 @@ fn breadths(lines: &Lines<'_>, settings: &Settings, problems: &mut Problems) -> 
     let of_breadths = |label: &&&Field| group_of(&label.text).0 == Some(Group::HalfBreadths);
     let says_half = |label: &&Field| {
         let lower = label.text.to_lowercase();
-        lower.contains("half") || words(&lower).iter().any(|word| word == "hb")
+        let says = |word: &str| word == "hb" || word == "halves" || word.starts_with("semi");
+        lower.contains("half") || words(&lower).iter().any(|word| says(word))
     };
     if let Some(label) = lines.labels.iter().find(of_breadths).filter(|_| !lines.labels.iter().any(says_half)) {
         problems.warning("W320", label.place(), half_taken(label.trimmed()), HALF_OR_FULL);
@@ -344,7 +371,7 @@ fn crossings(points: &[LinePoint], names: &[&str], problems: &mut Problems) {
         points.iter().find(|point| point.station == station && point.name == name).map(|point| point.z)
     };
     let mut lines: Vec<&str> = Vec::new();
-    for point in points.iter().filter(|point| !point.name.is_empty()) {
+    for point in points.iter().filter(|point| !point.is_cut) {
         if !lines.contains(&point.name.as_str()) {
             lines.push(&point.name);
         }
@@ -394,15 +421,16 @@ fn points(lines: &Lines<'_>, heads: &[(usize, Position)], xs: &[f64], reader: &m
                 "Give a row of its half-breadths (half siding)",
             );
         }
-        let of = |row: &Row<'_>, half: bool, reader: &mut TableReader<'_>| -> Vec<Option<f64>> {
-            let values = heads.iter().map(|(at, _)| {
-                let field = row.cells.get(*at)?;
-                if half { reader.cell(field, true).value() } else { reader.length(field, reader.units.z) }
-            });
-            values.collect()
-        };
-        let zs = of(heights, false, reader);
-        let ys = breadths.map(|row| of(row, true, reader));
+        let of =
+            |row: &Row<'_>, half: bool, reader: &mut TableReader<'_>| -> (Vec<Option<f64>>, Vec<Option<Written>>) {
+                let read = |(at, _): &(usize, Position)| {
+                    let cell = row.cells.get(*at).map(|field| reader.cell(field, half)).unwrap_or_default();
+                    (cell.value(), cell.written.filter(|_| cell.entry != Entry::Absent))
+                };
+                heads.iter().map(read).unzip()
+            };
+        let (zs, z_cells) = of(heights, false, reader);
+        let (ys, y_cells) = breadths.map(|row| of(row, true, reader)).unzip();
         // A line may end where both of its rows do; where one alone has nothing it is not known.
         let is_half = |k: usize| ys.as_ref().is_some_and(|ys| ys[k].is_some() != zs[k].is_some());
         let any = (0..heads.len()).any(is_half);
@@ -414,32 +442,49 @@ fn points(lines: &Lines<'_>, heads: &[(usize, Position)], xs: &[f64], reader: &m
         };
         for (station, (y, z)) in ys.into_iter().zip(zs).enumerate() {
             if let (Some(y), Some(z)) = (y, z) {
-                points.push(LinePoint { station, name: name.to_owned(), y, z });
+                let y_cell = y_cells.as_ref().and_then(|cells| cells[station].clone());
+                let cells = [y_cell, z_cells[station].clone()];
+                points.push(LinePoint { station, name: name.to_owned(), is_cut: false, y, z, cells });
             }
         }
     }
     for row in &lines.rows {
-        let half = match row.group {
-            Some(Group::HalfBreadths) => true,
-            Some(Group::Heights) => false,
-            Some(Group::Positions) => continue,
-            Some(Group::Diagonals) | None => {
-                let message = format!("left out: the row '{}'", row.label.trimmed());
-                reader.problems.warning("W332", row.label.place(), message, "");
-                continue;
-            }
-        };
-        let Some(place) = across(row) else { continue };
-        let place = reader.across(place);
-        for (station, (at, _)) in heads.iter().enumerate() {
-            let Some(field) = row.cells.get(*at) else { continue };
-            if let Some(value) = reader.cell(field, half).value() {
-                let (y, z) = if half { (value, place) } else { (place, value) };
-                points.push(LinePoint { station, name: String::new(), y, z });
-            }
-        }
+        cut_points(lines, row, heads, reader, &mut points);
     }
     points
+}
+
+/// The points of a waterline, a buttock or a diagonal.
+fn cut_points(
+    lines: &Lines<'_>,
+    row: &Row<'_>,
+    heads: &[(usize, Position)],
+    reader: &mut TableReader<'_>,
+    points: &mut Vec<LinePoint>,
+) {
+    let half = match row.group {
+        Some(Group::HalfBreadths) => true,
+        Some(Group::Heights) => false,
+        Some(Group::Positions) => return,
+        Some(Group::Diagonals) => {
+            return diagonals::points(row, lines.definitions.as_slice(), heads, reader, points);
+        }
+        None => {
+            let message = format!("left out: the row '{}'", row.label.trimmed());
+            return reader.problems.warning("W332", row.label.place(), message, "");
+        }
+    };
+    let Some(place) = across(row) else { return };
+    let place = reader.across(place);
+    for (station, (at, _)) in heads.iter().enumerate() {
+        let Some(field) = row.cells.get(*at) else { continue };
+        let cell = reader.cell(field, half);
+        if let Some(value) = cell.value() {
+            let (y, z) = if half { (value, place) } else { (place, value) };
+            let cells = if half { [cell.written, None] } else { [None, cell.written] };
+            points.push(LinePoint { station, name: row.label.trimmed().to_owned(), is_cut: true, y, z, cells });
+        }
+    }
 }
 
 /// A section from the keel to the sheer.
@@ -456,11 +501,26 @@ fn outline<'p>(points: impl Iterator<Item = &'p LinePoint>, has_cuts: bool) -> V
     sorted.iter().enumerate().map(is_knuckle).collect()
 }
 
+/// The named lines with their cells; `kept` are the columns of the stations from aft forward.
+fn written_lines(points: &[LinePoint], kept: &[usize]) -> Vec<WrittenLine> {
+    let mut lines: Vec<WrittenLine> = Vec::new();
+    for (station, column) in kept.iter().enumerate() {
+        for point in points.iter().filter(|point| point.station == *column) {
+            let written = WrittenPoint { station, given: [point.y, point.z], cells: point.cells.clone() };
+            match lines.iter_mut().find(|line| line.name == point.name) {
+                Some(line) => line.points.push(written),
+                None => lines.push(WrittenLine { name: point.name.clone(), points: vec![written] }),
+            }
+        }
+    }
+    lines
+}
+
 /// Turns a hull about whose stations count from its stem, by the words before their distances (`from`) or by their names;
-/// says so where neither tells. Numbers of stations have their own warning.
-fn turn(table: &mut OffsetTable, settings: &Settings, from: Option<i32>, problems: &mut Problems) {
+/// says so where neither tells. Numbers of stations have their own warning. Whether it was turned.
+fn turn(table: &mut OffsetTable, settings: &Settings, from: Option<i32>, problems: &mut Problems) -> bool {
     if settings.stations.is_some() {
-        return;
+        return false;
     }
     let end = |station: Option<&StationOffsets>| station.map_or(0, |station| end_of(&station.station.name));
     let (aft, fore) = match from {
@@ -468,7 +528,8 @@ fn turn(table: &mut OffsetTable, settings: &Settings, from: Option<i32>, problem
         Some(-1) => (-1, 1),
         _ => (end(table.stations.first()), end(table.stations.last())),
     };
-    if aft == 1 || fore == -1 {
+    let is_turned = aft == 1 || fore == -1;
+    if is_turned {
         let length = table.stations.last().map_or(0.0, |station| station.station.x);
         table.stations.iter_mut().for_each(|station| station.station.x = length - station.station.x);
         table.stations.reverse();
@@ -478,6 +539,7 @@ fn turn(table: &mut OffsetTable, settings: &Settings, from: Option<i32>, problem
         let remedy = "Name a station 'transom' or 'stem', or give stations = \"from FP\" in the conventions";
         problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);
     }
+    is_turned
 }
 
 #[cfg(test)]
@@ -511,7 +573,14 @@ mod tests {
 
     #[test]
     fn sections_go_from_the_keel_to_the_sheer() {
-        let point = |name: &str, y, z| LinePoint { station: 0, name: name.to_owned(), y, z };
+        let point = |name: &str, y, z| LinePoint {
+            station: 0,
+            name: name.to_owned(),
+            is_cut: false,
+            y,
+            z,
+            cells: [None, None],
+        };
         let all = [point("sheer", 2.0, 3.0), point("chine", 1.5, 1.0), point("keel", 0.0, 0.5)];
         let found: Vec<(f64, bool)> = outline(all.iter(), false).iter().map(|p| (p.y, p.marks.knuckle)).collect();
         assert_eq!(found, [(0.0, false), (1.5, true), (2.0, false)]);

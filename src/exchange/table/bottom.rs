@@ -2,7 +2,7 @@
 
 use super::assemble::SAME;
 use super::problem::{FilePosition, Problems};
-use crate::hull::{OffsetTable, StationOffsets};
+use crate::hull::{OffsetTable, OutlinePoint, StationOffsets};
 use crate::numeric::trapezoids;
 use crate::units::counted;
 
@@ -12,8 +12,11 @@ const SHARE: f64 = 0.01;
 /// Least waterplane of a hull that goes on below it, over the greatest.
 const WATERPLANE: f64 = 0.01;
 
-/// Least half-breadth of the first point of a section that does not close, over its greatest.
+/// Least half-breadth of the first point of a section that does not close, over that of the hull.
 const OPEN: f64 = 0.05;
+
+/// No section is taken to go on below its first point with a greater slope dz/dy.
+const STEEPEST: f64 = 2.0;
 
 /// Slopes dz/dy up to this are those of a bottom that is level.
 const LEVEL: f64 = 0.1;
@@ -101,29 +104,58 @@ fn to_keel(table: &OffsetTable, first: usize) -> f64 {
     trapezoids(&table.stations.iter().map(below).collect::<Vec<_>>())
 }
 
-/// Sections as points that begin beside the centreplane and rise from there: what is below their first points is open.
+/// Sections as points that begin beside the centreplane and rise from there: what is below their first points is open,
+/// where it may be more than [`SHARE`] of the volume. A keel has a bottom as broad as its siding.
 fn below_points(table: &OffsetTable, problems: &mut Problems) {
-    let is_open = |station: &&StationOffsets| {
-        let Some([first, second, ..]) = station.outlines.first().map(Vec::as_slice) else { return false };
-        let greatest = station.outlines.iter().flatten().map(|p| p.y).fold(0.0, f64::max);
-        let closed =
-            station.flat_of_bottom.is_some() || station.half_breadths.iter().any(|cell| cell.value().is_some());
-        let rises = second.z - first.z > LEVEL * (second.y - first.y).abs();
-        !closed && first.y > OPEN * greatest && rises
-    };
-    let open: Vec<&StationOffsets> = table.stations.iter().filter(is_open).collect();
-    if let Some(first) = open.first()
-        && 4 * open.len() > table.stations.len()
+    let is_keel = |name: &str| ["keel", "rabbet", "siding"].iter().any(|word| name.contains(word));
+    if table.form.boat_lines.iter().any(|line| is_keel(&line.name)) {
+        return;
+    }
+    let points = || table.stations.iter().flat_map(|station| &station.outlines).flatten();
+    let greatest = points().map(|point| point.y).fold(0.0, f64::max);
+    let parts: Vec<[f64; 3]> = table
+        .stations
+        .iter()
+        .map(|station| [station.station.x, open_area(station, greatest), outline_area(station)])
+        .collect();
+    let open = parts.iter().filter(|[_, open, _]| *open > 0.0).count();
+    let volume = |part: usize| trapezoids(&parts.iter().map(|of| [of[0], of[part]]).collect::<Vec<_>>());
+    let (below, above) = (volume(1), volume(2));
+    let first = parts.iter().position(|[_, open, _]| *open > 0.0);
+    if let Some(first) = first.map(|k| &table.stations[k])
+        && 4 * open > table.stations.len()
+        && below > SHARE * (below + above)
     {
         let point = first.outlines[0][0];
         let message = format!(
             "{} begin beside the centreplane and rise from there, as that at x = {:.3} m, whose first point is ({:.3}, {:.3}): what \
-             is below does not count, but for a level line to the centreplane",
-            counted(open.len(), "section"),
+             is below does not count, but for a level line to the centreplane. Continued to the centreplane the hull has {:.1} % more",
+            counted(open, "section"),
             first.station.x,
             point.y,
-            point.z
+            point.z,
+            100.0 * below / above.max(f64::MIN_POSITIVE)
         );
         problems.warning("W315", FilePosition::FILE, message, "Begin each section on the centreplane");
     }
+}
+
+/// What the first slope of a section encloses below its first point, half \[m²\]; 0 where its bottom is known. Above a
+/// keel the slope is that of the bottom beside it.
+fn open_area(station: &StationOffsets, greatest: f64) -> f64 {
+    let Some([first, second, others @ ..]) = station.outlines.first().map(Vec::as_slice) else { return 0.0 };
+    let slope = |a: &OutlinePoint, b: &OutlinePoint| (b.z - a.z) / (b.y - a.y).abs().max(f64::MIN_POSITIVE);
+    let rises = slope(first, second);
+    let closed = station.flat_of_bottom.is_some() || station.half_breadths.iter().any(|cell| cell.value().is_some());
+    if closed || first.y <= OPEN * greatest || rises <= LEVEL {
+        return 0.0;
+    }
+    let above = others.first().map_or(rises, |third| slope(second, third)).max(0.0);
+    0.5 * first.y * first.y * rises.min(above).min(STEEPEST)
+}
+
+/// Half of the area of a section between its first and its last point \[m²\].
+fn outline_area(station: &StationOffsets) -> f64 {
+    let part = |pair: &[OutlinePoint]| 0.5 * (pair[0].y + pair[1].y) * (pair[1].z - pair[0].z);
+    station.outlines.iter().map(|line| line.windows(2).map(part).sum::<f64>()).sum()
 }

@@ -92,9 +92,18 @@ pub(super) fn profiles(table: &OffsetTable, problems: &mut Problems) {
                 "E303",
                 FilePosition::FILE,
                 message,
-                "Give x of the profiles forward of AP, as of the stations",
+                &format!(
+                    "Give x of the profile forward of AP, as of the stations. If the row holds half-breadths of a station, \
+                     write its position behind the name, as '{name} station ({high} m)'"
+                ),
             );
             continue;
+        }
+        if end == 0 && looks_like_breadths(table) {
+            let message = "the row of the stern is read as x of its profile, and rises with the waterlines as half-breadths of a \
+                           station do";
+            let remedy = "Write the position of such a station behind its name, as 'transom (0.50 m)'";
+            problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);
         }
         let within = given().filter_map(|(j, x)| {
             let beyond = |s: &&StationOffsets| {
@@ -117,6 +126,17 @@ pub(super) fn profiles(table: &OffsetTable, problems: &mut Problems) {
             problems.warning("W320", FilePosition::FILE, message, remedy);
         }
     }
+}
+
+/// Whether x of the stern profile may be half-breadths: above 0, rising with the waterlines, and below the greatest breadth.
+/// Sterns lean aft, and their x falls.
+fn looks_like_breadths(table: &OffsetTable) -> bool {
+    let given: Vec<f64> = table.endings.iter().filter_map(|ends| ends[0]).collect();
+    let breadths = table.stations.iter().flat_map(|s| &s.half_breadths).filter_map(Cell::value);
+    let greatest = breadths.fold(0.0, f64::max);
+    let [first, .., last] = given[..] else { return false };
+    let rises = given.windows(2).all(|pair| pair[1] >= pair[0]) && last > first + 0.05 * greatest;
+    rises && first >= 0.0 && last <= greatest && last > 0.1 * greatest
 }
 
 /// Cells without hull among half-breadths, which no hull has: those that no chain of their like connects with an edge of

@@ -111,6 +111,12 @@ pub(super) fn breadths(name: &str) -> Option<Named> {
     column(&lower.replacen(word, "half breadth", 1)).filter(|named| named.column == Column::Y)
 }
 
+/// Whether a header says ordinate, which is a station in some tables and a half-breadth in others.
+pub(super) fn is_ordinate(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    lower.split(|c: char| !c.is_alphabetic()).any(|word| word == "ordinate")
+}
+
 fn axis(words: &str) -> Option<Column> {
     Some(match words {
         "station" | "stations" | "stn" | "sta" | "st" | "section" | "frame" | "ordinate" | "name" | "spant" => {
@@ -121,18 +127,22 @@ fn axis(words: &str) -> Option<Column> {
         | "longitudinal pos"
         | "longitudinal position"
         | "position"
+        | "pos"
         | "distance"
         | "x position"
         | "length"
         | "station position"
+        | "frame position"
+        | "section position"
         | "station x"
         | "x station" => Column::X,
         "loop" | "branch" => Column::Loop,
         "point" => Column::Point,
-        "y" | "offset" | "half breadth" | "halfbreadth" | "half width" | "half beam" | "y offset" | "hb"
-        | "halbbreite" => Column::Y,
+        "y" | "offset" | "half breadth" | "halfbreadth" | "half width" | "half beam" | "half ordinate"
+        | "semi breadth" | "semibreadth" | "y offset" | "hb" | "halbbreite" => Column::Y,
         "z"
         | "height"
+        | "h"
         | "elevation"
         | "waterline height"
         | "height above base"

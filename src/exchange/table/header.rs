@@ -87,7 +87,17 @@ fn axis_word(word: &str) -> Option<Axis> {
 
 /// What the words of a header are about: the first word that says it.
 pub(super) fn axis_of(text: &str) -> Option<Axis> {
-    words(text).iter().find_map(|word| axis_word(word))
+    // `1st` is no station.
+    let counts = |(at, word): (usize, &str)| {
+        matches!(word, "st" | "nd" | "rd" | "th") && text[..at].ends_with(|c: char| c.is_ascii_digit())
+    };
+    let lower = text.to_lowercase();
+    let mut at = 0;
+    lower.split(|c: char| !c.is_alphabetic()).find_map(|word| {
+        let start = at;
+        at += word.len() + 1;
+        if lower.len() == text.len() && text.is_ascii() && counts((start, word)) { None } else { axis_word(word) }
+    })
 }
 
 /// The unit that a header declares: in brackets, or as its last word after a low line (`x_from_AP_m`).
@@ -105,7 +115,7 @@ pub(super) fn unit_of(text: &str) -> Option<Notation> {
 }
 
 /// Names of side columns and rows; the first of each kind is the one that we write.
-pub(super) const SIDES: [(&str, SideKind); 50] = [
+pub(super) const SIDES: [(&str, SideKind); 54] = [
     ("keel", SideKind::Keel),
     ("z keel", SideKind::Keel),
     ("keel height", SideKind::Keel),
@@ -127,12 +137,16 @@ pub(super) const SIDES: [(&str, SideKind); 50] = [
     ("height of deck", SideKind::DeckHeight),
     ("sheer", SideKind::DeckHeight),
     ("sheer height", SideKind::DeckHeight),
+    ("sheer ht", SideKind::DeckHeight),
+    ("deck ht", SideKind::DeckHeight),
     ("height of sheer", SideKind::DeckHeight),
     ("deck at side height", SideKind::DeckHeight),
     ("height of deck at side", SideKind::DeckHeight),
     ("z max", SideKind::DeckHeight),
     ("half breadth at deck", SideKind::DeckHalfBreadth),
     ("y deck", SideKind::DeckHalfBreadth),
+    ("sheer hb", SideKind::DeckHalfBreadth),
+    ("deck hb", SideKind::DeckHalfBreadth),
     ("deck half breadth", SideKind::DeckHalfBreadth),
     ("deck centre", SideKind::DeckCentreHeight),
     ("deck center", SideKind::DeckCentreHeight),
@@ -268,6 +282,15 @@ impl Corner {
             .contains("lpp")
             .then(|| lower.split(|c: char| !c.is_ascii_digit()).find(|d| !d.is_empty())?.parse().ok())
             .flatten();
+        // Per cent of the length are numbers of a hundred stations.
+        let of_length = ["lpp", "lbp", "length"].iter().any(|word| lower.contains(word));
+        let is_share = of_length && ["%", "per cent", "percent"].iter().any(|word| lower.contains(word));
+        let is_part = ["x/lpp", "x/lbp", "x / lpp"].iter().any(|words| lower.starts_with(words));
+        let (rows, spaces) = match (is_share, is_part) {
+            (true, _) => (Some(Axis::Station), Some(100.0)),
+            (false, true) => (Some(Axis::Station), Some(1.0)),
+            (false, false) => (rows, spaces),
+        };
         // `Distance from stem`, and `x aft`.
         let first = |after: &str| words(after).into_iter().find(|word| word != "the");
         let behind = lower.split_once(" from ").and_then(|(_, after)| From::end_of(&first(after)?));
@@ -375,9 +398,17 @@ pub(super) fn position(text: &str, decimal_comma: bool) -> Result<Position, Unit
         Some((before, word)) if axis_of(word).is_some() || From::end_of(word).is_some() => (before, true),
         _ => (rest, false),
     };
-    let place = number(&unbracketed(rest))?;
+    let place = number(&unbracketed(cardinal(rest)))?;
     let named = start > 0 || follows && matches!(place, Coordinate::Number(_));
     Ok(Position { named, ..Position::at(place, text) })
+}
+
+/// `1st` as `1`, of waterlines that are counted.
+fn cardinal(text: &str) -> &str {
+    let end = text.trim_end().find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    let (number, rest) = text.split_at(end);
+    let is_ordinal = ["st", "nd", "rd", "th"].iter().any(|word| rest.trim_end().eq_ignore_ascii_case(word));
+    if is_ordinal && !number.is_empty() { number } else { text }
 }
 
 /// `1.50 [m]` as `1.50 m`.
@@ -412,6 +443,8 @@ mod tests {
         assert_eq!(place("wl0.075"), Coordinate::Number(0.075));
         assert_eq!(place("WL .5"), Coordinate::Number(0.5));
         assert_eq!(place("1.5 WL"), Coordinate::Number(1.5));
+        assert_eq!((axis_of("1st WL"), axis_of("St. 1")), (Some(Axis::Waterline), Some(Axis::Station)));
+        assert_eq!((place("1st WL"), place("Waterline 2nd")), (Coordinate::Number(1.0), Coordinate::Number(2.0)));
         assert_eq!(place("1.5 m WL"), Coordinate::Length(1.5));
         assert_eq!(place("R5"), Coordinate::Number(5.0));
         assert_eq!(place("3-0-0"), Coordinate::Length(0.9144));
@@ -443,6 +476,8 @@ mod tests {
         assert_eq!(corner.unit, Some(Notation::Metres));
         let corner = Corner::of("station_20_over_Lpp");
         assert_eq!((corner.rows, corner.spaces), (Some(Axis::Station), Some(20.0)));
+        let corner = Corner::of("x in % of Lpp from AP");
+        assert_eq!((corner.rows, corner.spaces), (Some(Axis::Station), Some(100.0)));
         assert_eq!(Corner::of("").rows, None);
         assert_eq!(Corner::of("station_as_printed").unit, None);
     }

@@ -77,6 +77,29 @@ fn is_continuous(block: &Block, other: &Block, before: bool, comma: bool) -> boo
     sums[0].max(sums[1]) <= MOST_CHANGE * sums[0].min(sums[1])
 }
 
+/// The second table without the station that both have where they meet, as aft bodies and fore bodies have midship, when
+/// its offsets are the same in both.
+fn without_shared(
+    block: &Block,
+    mut other: Block,
+    along: &[Coordinate],
+    mut more_along: Vec<Coordinate>,
+) -> (Block, Vec<Coordinate>) {
+    let texts = |row: &MatrixRow| -> Vec<String> { row.cells.iter().map(|cell| cell.trimmed().to_owned()).collect() };
+    let same = |own: Option<&MatrixRow>, more: Option<&MatrixRow>| {
+        own.zip(more).is_some_and(|(own, more)| texts(own) == texts(more))
+    };
+    let count = other.stations.len();
+    if count > 1 && along.last() == more_along.first() && same(block.stations.last(), other.stations.first()) {
+        other.stations.remove(0);
+        more_along.remove(0);
+    } else if count > 1 && along.first() == more_along.last() && same(block.stations.first(), other.stations.last()) {
+        other.stations.pop();
+        more_along.pop();
+    }
+    (other, more_along)
+}
+
 /// Puts `other` into `block`; gives it back where it does not go on with it.
 fn join(block: &mut Block, other: Block, comma: bool) -> Option<Block> {
     let all = (places(&heads(block), comma), places(&heads(&other), comma));
@@ -84,6 +107,7 @@ fn join(block: &mut Block, other: Block, comma: bool) -> Option<Block> {
     let all = (places(&lines(block), comma), places(&lines(&other), comma));
     let (Some(along), Some(more_along)) = all else { return Some(other) };
     if across == more_across && same_sides(block, &other) {
+        let (other, more_along) = without_shared(block, other, &along, more_along);
         let Some(before) = second_first(&along, &more_along) else { return Some(other) };
         extend(&mut block.stations, other.stations, before);
         block.endings.extend(other.endings);

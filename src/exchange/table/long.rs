@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::columns::{Column, Named, Whole, breadths, column};
+use super::columns::{Column, Named, Whole, breadths, column, is_ordinate};
 use super::fields::decimals;
 use super::outline::{keel_of, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
@@ -36,6 +36,14 @@ impl Columns {
                 header.iter().enumerate().find_map(|(at, field)| Some((at, breadths(&field.text)?)))
         {
             (columns.all[at], columns.unsaid) = (Some(named), Some(at));
+        }
+        // Beside a column of stations an ordinate is no station.
+        let ordinate = (0..header.len()).rfind(|at| is_ordinate(&header[*at].text));
+        if columns.find(Column::Y).is_none()
+            && let Some((at, named)) = ordinate.and_then(|at| Some((at, columns.all[at]?)))
+            && columns.all[..at].iter().flatten().any(|n| matches!(n.column, Column::Station | Column::X))
+        {
+            (columns.all[at], columns.unsaid) = (Some(Named { column: Column::Y, ..named }), Some(at));
         }
         columns
     }

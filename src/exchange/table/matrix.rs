@@ -72,7 +72,10 @@ fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Fi
     let wrong: Vec<&Vec<Field>> =
         part.iter().filter(|row| length(row) > width || row.len() < part[0].len() && row.len() < width).collect();
     // As many fields again as the header has: every number was cut in two at its decimal comma.
-    let doubled = wrong.iter().filter(|row| row.len() > width && row.len() + 3 >= 2 * width).count();
+    let doubled = wrong
+        .iter()
+        .filter(|row| row.len() > width && row.len() + 3 >= 2 * width && row.len() <= 2 * width + 3)
+        .count();
     // Numbers with decimal points are not cut at commas.
     let whole = wrong.iter().flat_map(|row| row.iter()).all(|field| !field.text.contains('.'));
     if doubled > 0 && 2 * doubled >= part.len() - 1 && whole {

@@ -255,7 +255,7 @@ fn of_grid(
     let mut table = match layout {
         TableLayout::Other => {
             problems.note("rows of heights and half-breadths of lines, columns are stations".to_owned());
-            boat::read(&grid.rows, form, settings, problems)?
+            boat::read(&grid.rows, &grid.comments, form, settings, problems)?
         }
         TableLayout::Tidy if long::is_long(&grid.rows) => {
             problems.note("one point a row".to_owned());

@@ -177,7 +177,7 @@ fn text(value: &DataRef<'_>, formula: bool, field: &Field, problems: &mut Proble
 fn unstored(field: &Field, problems: &mut Problems) -> Option<String> {
     let message = "the cell has a formula without a stored value".to_owned();
     let remedy = "Open the workbook in a spreadsheet and save it, or give values";
-    problems.error("E301", field, message, remedy);
+    problems.error("E317", field, message, remedy);
     None
 }
 
@@ -213,7 +213,7 @@ fn refuse_date(field: &Field, problems: &mut Problems) {
     let message = format!("the cell is a date; spreadsheets make dates of feet-inches-eighths{typed}");
     // The date stands in the message.
     let place = Field { text: String::new(), ..field.clone() };
-    problems.error("E301", &place, message, "Format the cells as text before typing 3-4-5");
+    problems.error("E317", &place, message, "Format the cells as text before typing 3-4-5");
 }
 
 /// Numbers in merged cells stand in each of them; titles stand in the first.

@@ -12,14 +12,15 @@
 //! evidence is the distance at which the repaired point would lie (head of `posterior.rs`). Marked knuckles end the
 //! predictors.
 
+use super::boat_lines::{has_lines, line_suspects};
 use super::posterior::{Reading, readings, student};
 use super::reading::{Hypothesis, Writing, bare, repairs};
 use crate::hull::{OffsetTable, OutlinePoint};
 
 /// A way to predict a point: offsets of its neighbours in the sequence, degree.
-struct Predictor {
-    offsets: &'static [isize],
-    degree: usize,
+pub(super) struct Predictor {
+    pub(super) offsets: &'static [isize],
+    pub(super) degree: usize,
 }
 
 const PREDICTORS: [Predictor; 7] = [
@@ -115,6 +116,19 @@ pub struct PointSuspect {
     pub proposed: f64,
     /// The same as it would be written.
     pub proposed_text: String,
+    /// Its line and cell in a table of lines, as boats have them; none in sections.
+    pub line: Option<LinePlace>,
+}
+
+/// Where a number of a line of a boat stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LinePlace {
+    /// Name of the line.
+    pub name: String,
+    /// Row (line) in the file, from 1.
+    pub row: usize,
+    /// Column (field) in the file, from 1.
+    pub column: usize,
 }
 
 impl PointSuspect {
@@ -136,13 +150,15 @@ pub struct PointSuspects {
     pub suspects: Vec<PointSuspect>,
 }
 
-/// A smooth part of a section, between knuckles.
-struct Run {
-    station: usize,
-    branch: usize,
-    first: usize,
-    points: Vec<[f64; 2]>,
-    aside: Vec<bool>,
+/// A smooth part of a section, between knuckles; or a line of a boat as a graph over its length.
+pub(super) struct Run {
+    pub(super) station: usize,
+    pub(super) branch: usize,
+    pub(super) first: usize,
+    pub(super) points: Vec<[f64; 2]>,
+    pub(super) aside: Vec<bool>,
+    /// Whether the second number of a point is a function of the first, which is right.
+    pub(super) is_graph: bool,
 }
 
 /// A prediction: a polynomial d(s) in a frame.
@@ -154,6 +170,7 @@ struct Curve {
     degree: usize,
     /// Where the curve is known, s from and to; open where a predictor looks to one side.
     reach: [f64; 2],
+    is_graph: bool,
 }
 
 impl Curve {
@@ -191,6 +208,10 @@ impl Curve {
     /// Distance of a point from the curve, positive on one side, and the point of the curve beside it.
     fn distance(&self, p: [f64; 2]) -> (f64, [f64; 2]) {
         let [s, d] = self.frame(p);
+        if self.is_graph {
+            let height = self.height(s);
+            return (d - height, [p[0], self.origin[1] + height]);
+        }
         let near = s.clamp(self.reach[0], self.reach[1]);
         let height = self.height(near);
         let step = 1e-3 * (self.s.iter().fold(0.0f64, |a, b| a.max(b.abs())));
@@ -259,13 +280,21 @@ impl Run {
         if length <= 0.0 {
             return None;
         }
-        let axis = chord.map(|c| c / length);
+        let axis = if self.is_graph { [1.0, 0.0] } else { chord.map(|c| c / length) };
         let reach = match (two_sided, predictor.offsets[0] < 0) {
             (true, _) => [0.0, length],
             (false, true) => [0.0, f64::INFINITY],
             (false, false) => [f64::NEG_INFINITY, length],
         };
-        let mut curve = Curve { origin: from, axis, s: Vec::new(), d: Vec::new(), degree: predictor.degree, reach };
+        let mut curve = Curve {
+            origin: from,
+            axis,
+            s: Vec::new(),
+            d: Vec::new(),
+            degree: predictor.degree,
+            reach,
+            is_graph: self.is_graph,
+        };
         for point in near {
             let [s, d] = curve.frame(point);
             curve.s.push(s);
@@ -280,17 +309,18 @@ impl Run {
     }
 }
 
-struct Judge {
+pub(super) struct Judge {
     runs: Vec<Run>,
     /// By run the runs at the same branch of the neighbouring stations.
     beside: Vec<Vec<usize>>,
     floor2: f64,
+    predictors: &'static [Predictor],
     /// Level of each predictor over the table, squared \[m²\]; none where it rarely applies.
-    level2: [Option<f64>; PREDICTORS.len()],
+    level2: Vec<Option<f64>>,
 }
 
 impl Judge {
-    fn new(table: &OffsetTable, quantum: f64) -> Self {
+    fn of_sections(table: &OffsetTable, quantum: f64) -> Self {
         let mut runs: Vec<Run> = Vec::new();
         for (station, column) in table.stations.iter().enumerate() {
             for (branch, line) in column.outlines.iter().enumerate() {
@@ -299,7 +329,7 @@ impl Judge {
                     if last + 1 == line.len() || (last > first && line[last].marks.knuckle) {
                         let points: Vec<[f64; 2]> = line[first..=last].iter().map(|p| [p.y, p.z]).collect();
                         let aside = vec![false; points.len()];
-                        runs.push(Run { station, branch, first, points, aside });
+                        runs.push(Run { station, branch, first, points, aside, is_graph: false });
                         first = last;
                     }
                 }
@@ -313,8 +343,14 @@ impl Judge {
                 runs.iter().enumerate().filter(|(_, o)| near(o) && same(o)).map(|(k, _)| k).collect()
             })
             .collect();
-        let mut judge = Self { runs, beside, floor2: quantum * quantum / 12.0, level2: [None; PREDICTORS.len()] };
-        for (q, predictor) in PREDICTORS.iter().enumerate() {
+        Self::new(runs, beside, quantum, &PREDICTORS)
+    }
+
+    /// The judge of runs, each with those beside it.
+    pub(super) fn new(runs: Vec<Run>, beside: Vec<Vec<usize>>, quantum: f64, predictors: &'static [Predictor]) -> Self {
+        let level2 = vec![None; predictors.len()];
+        let mut judge = Self { runs, beside, floor2: quantum * quantum / 12.0, predictors, level2 };
+        for (q, predictor) in predictors.iter().enumerate() {
             let mut squares: Vec<f64> = Vec::new();
             for run in &judge.runs {
                 squares.extend((0..run.points.len()).filter_map(|k| residual(run, predictor, k, None)).map(|r| r * r));
@@ -329,7 +365,7 @@ impl Judge {
     fn testimony(&self, r: usize, at: usize) -> Option<Testimony> {
         let run = &self.runs[r];
         let mut heard: Vec<Testimony> = Vec::new();
-        for (q, predictor) in PREDICTORS.iter().enumerate() {
+        for (q, predictor) in self.predictors.iter().enumerate() {
             let (Some(curve), Some(level2)) = (run.curve(predictor, at, None), self.level2[q]) else { continue };
             let mut squares: Vec<f64> = Vec::new();
             for k in at.saturating_sub(REACH)..(at + REACH + 1).min(run.points.len()) {
@@ -370,8 +406,20 @@ fn residual(run: &Run, predictor: &Predictor, at: usize, also: Option<usize>) ->
     Some(curve.distance(run.points[at]).0).filter(|r| r.is_finite())
 }
 
+/// A number of a point that may be wrong: which of the two that the judge knows, its name, its text and cell.
+pub(super) struct Number {
+    pub(super) index: usize,
+    pub(super) number: PointNumber,
+    pub(super) text: String,
+    pub(super) writing: Writing,
+    pub(super) line: Option<LinePlace>,
+}
+
+/// What the numbers of points are, by run and point.
+pub(super) type Numbers<'n> = dyn Fn(&Run, usize) -> Vec<Number> + 'n;
+
 /// A point with the readings of one of its numbers in front.
-fn suspect(judge: &Judge, r: usize, at: usize, writing: Writing, wrong: f64) -> Option<PointSuspect> {
+fn suspect(judge: &Judge, (r, at): (usize, usize), numbers: &Numbers<'_>, wrong: f64) -> Option<PointSuspect> {
     let testimony = judge.testimony(r, at)?;
     if testimony.score() < LEAST_SCORE {
         return None;
@@ -388,10 +436,11 @@ fn suspect(judge: &Judge, r: usize, at: usize, writing: Writing, wrong: f64) -> 
         value: 0.0,
         probability: (1.0 - wrong) * density(given),
     }];
-    let mut best = (PointNumber::HalfBreadth, 0.0);
+    let numbers = numbers(run, at);
+    let mut best = (0, 0.0);
     let foot = testimony.foot;
-    for (index, number) in [PointNumber::HalfBreadth, PointNumber::Height].into_iter().enumerate() {
-        let texts = repairs(&writing.write(given[index]), writing);
+    for (k, &Number { index, number, ref text, writing, .. }) in numbers.iter().enumerate() {
+        let texts = repairs(text, writing);
         for hypothesis in Hypothesis::ALL {
             let total: f64 = texts.iter().filter(|t| t.hypothesis == hypothesis).map(|t| t.weight).sum();
             for repair in texts.iter().filter(|t| t.hypothesis == hypothesis) {
@@ -399,7 +448,7 @@ fn suspect(judge: &Judge, r: usize, at: usize, writing: Writing, wrong: f64) -> 
                 point[index] = repair.value;
                 let probability = wrong * 0.5 * hypothesis.prior() * repair.weight / total * density(point);
                 if probability > best.1 {
-                    best = (number, probability);
+                    best = (k, probability);
                 }
                 // The text says which number is meant.
                 let text = format!("{} = {}", number.as_str(), repair.text);
@@ -417,13 +466,12 @@ fn suspect(judge: &Judge, r: usize, at: usize, writing: Writing, wrong: f64) -> 
     let explained = best.1 > unexplained;
     if !explained {
         // The number that has further to go.
-        let moves = [(foot[0] - given[0]).abs(), (foot[1] - given[1]).abs()];
-        best.0 = if moves[0] >= moves[1] { PointNumber::HalfBreadth } else { PointNumber::Height };
+        let way = |k: &usize| (foot[numbers[*k].index] - given[numbers[*k].index]).abs();
+        best.0 = (0..numbers.len()).rev().max_by(|a, b| way(a).total_cmp(&way(b)))?;
     }
     let readings = readings(list);
     let noise = readings.iter().find(|r| r.hypothesis == Hypothesis::Noise).map_or(0.0, |r| r.probability);
-    let index = usize::from(best.0 == PointNumber::Height);
-    let written = writing.write(given[index]);
+    let &Number { index, number, text: ref written, writing, ref line } = numbers.get(best.0)?;
     let named = readings.iter().find(|r| r.hypothesis != Hypothesis::Noise).filter(|_| explained);
     let proposed_text = named.and_then(|r| r.text.split_once(" = ")).map(|(_, text)| text.to_owned());
     let proposed_text = proposed_text.unwrap_or_else(|| writing.write(foot[index]));
@@ -432,8 +480,8 @@ fn suspect(judge: &Judge, r: usize, at: usize, writing: Writing, wrong: f64) -> 
         station: run.station,
         branch: run.branch,
         point: run.first + at,
-        number: best.0,
-        written: bare(&written).to_owned(),
+        number,
+        written: bare(written).to_owned(),
         given,
         expected: foot,
         distance: testimony.distance.abs(),
@@ -443,24 +491,40 @@ fn suspect(judge: &Judge, r: usize, at: usize, writing: Writing, wrong: f64) -> 
         proposed: writing.read(&proposed_text).unwrap_or(foot[index]),
         proposed_text,
         readings,
+        line: line.clone(),
     })
 }
 
 /// The suspects among the points of the sections of a table; nothing is changed. The strongest is set aside before the
 /// next is looked for, and all are heard again at the end. Cost: linear in the points, and in the points of a section
-/// for each suspect.
+/// for each suspect. Tables of lines, as boats have them, are judged along their lines.
 #[must_use]
 pub fn point_suspects(table: &OffsetTable) -> PointSuspects {
+    if has_lines(table) {
+        return line_suspects(table);
+    }
     let quantum = table.form.quantum().unwrap_or(1e-4);
     // Sections are half sections whatever the grid of a table is.
     let writing = Writing { factor: 1.0, ..Writing::of(&table.form) };
-    let mut judge = Judge::new(table, quantum);
+    let numbers = |run: &Run, at: usize| {
+        let both = [PointNumber::HalfBreadth, PointNumber::Height].into_iter().enumerate();
+        both.map(|(index, number)| {
+            let text = writing.write(run.points[at][index]);
+            Number { index, number, text, writing, line: None }
+        })
+        .collect()
+    };
+    search(Judge::of_sections(table, quantum), &numbers)
+}
+
+/// The suspects that a judge finds.
+pub(super) fn search(mut judge: Judge, numbers: &Numbers<'_>) -> PointSuspects {
     let count: usize = judge.runs.iter().map(|run| run.points.len()).sum();
     let wrong = |found: usize| ((UNFOUND + found as f64) / count.max(1) as f64).min(MOST);
     let of_run = |judge: &Judge, r: usize, found: usize| -> Vec<(usize, PointSuspect)> {
         let points = 0..judge.runs[r].points.len();
         let heard = points.filter(|&k| !judge.runs[r].aside[k]);
-        heard.filter_map(|k| Some((k, suspect(judge, r, k, writing, wrong(found))?))).collect()
+        heard.filter_map(|k| Some((k, suspect(judge, (r, k), numbers, wrong(found))?))).collect()
     };
     let judged = (0..judge.runs.len())
         .map(|r| (0..judge.runs[r].points.len()).filter(|&k| judge.testimony(r, k).is_some()).count())
@@ -485,7 +549,7 @@ pub fn point_suspects(table: &OffsetTable) -> PointSuspects {
         .iter()
         .filter_map(|&(r, k)| {
             let others = found.len().saturating_sub(1);
-            suspect(&judge, r, k, writing, wrong(others)).filter(|s| s.probability >= LEAST_PROBABILITY)
+            suspect(&judge, (r, k), numbers, wrong(others)).filter(|s| s.probability >= LEAST_PROBABILITY)
         })
         .collect();
     suspects.sort_by(|a, b| b.score.total_cmp(&a.score));

@@ -158,8 +158,9 @@ pub(super) const RESULTS: [Explanation; 24] = [
         code: "E703",
         title: "Value that an option does not take",
         cause: "The value of an option is of another kind, or outside its range.",
-        example: "`loftsman report out/frigate --dpi 5000`.",
-        remedy: "Give a value as the message expects it.",
+        example: "`loftsman report out/frigate --dpi 5000`: expected 20 to 600 dots per inch.",
+        remedy: "Give a value of the kind and the range that the message states, or one of its list. `--help` behind the \
+         command describes the option.",
     },
     Explanation {
         code: "E704",

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const TABLES: [Explanation; 32] = [
+pub(super) const TABLES: [Explanation; 33] = [
     Explanation {
         code: "E300",
         title: "No table of offsets",
@@ -123,6 +123,13 @@ pub(super) const TABLES: [Explanation; 32] = [
         cause: "A name or a label of the table has control characters or is too long.",
         example: "A station whose name has 40,000 characters.",
         remedy: "Shorten the name, and take out control characters.",
+    },
+    Explanation {
+        code: "E317",
+        title: "Cells that hold no number as it was typed",
+        cause: "A spreadsheet made dates of feet-inches-eighths, or the workbook has formulas without stored values.",
+        example: "`2005-03-04` in a cell where 3-4-5 was typed.",
+        remedy: "Format the cells as text and type them again, or open the workbook in a spreadsheet and save it.",
     },
     Explanation {
         code: "E321",
