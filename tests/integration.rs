@@ -19,6 +19,7 @@ mod compare;
 mod configs;
 mod derive;
 mod draught;
+mod dxf;
 mod errors;
 mod examples;
 mod export;

@@ -161,7 +161,7 @@ fn format(name: &str, bytes: &[u8]) -> Option<&'static BodyFormat> {
 }
 
 /// Reads a body: a mesh (STL, OBJ, PLY, OFF, GLB, glTF, 3MF, VTK, gmsh), panels (GDF, PNL, NEMOH, HydroStar), the
-/// surfaces of a CAD file (STEP, IGES) or a control net (FREE!ship), by its content or its name, with the conventions of
+/// surfaces of a CAD file (STEP, IGES), the faces of a drawing (DXF) or a control net (FREE!ship), by its content or its name, with the conventions of
 /// the TOML beside it, given by its name and its text, and of others, each over those before it; none when it is no such
 /// file.
 pub fn read_body<'a>(

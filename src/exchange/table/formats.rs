@@ -42,20 +42,22 @@ pub(super) fn read(
     }
     let text = with_line_ends(String::from_utf8_lossy(bytes));
     let read = recognised(name, &text, sidecar, settings)?;
-    Some(read.and_then(|read| checked(name, read, settings, !points::recognise(name, &text))))
+    Some(read.and_then(|read| checked(name, read, settings, [!points::recognise(name, &text), true])))
 }
 
-/// A table with what the settings say of it, and with what is unknown of its chines, bottom and ends. `own_unit`: its
-/// format states the unit.
+/// A table with what the settings say of it, and with what is unknown of its bottom and ends. `own_unit`: its format
+/// states the unit; `chines`: its points are no samples of curves, and may be on chines.
 pub(super) fn checked(
     name: &str,
     mut read: ReadTable,
     settings: &Settings,
-    own_unit: bool,
+    [own_unit, chines]: [bool; 2],
 ) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
     super::obeyed::obey(settings, own_unit, &mut read.table, &mut problems);
-    super::chines::mark(&mut read.table, &mut problems);
+    if chines {
+        super::chines::mark(&mut read.table, &mut problems);
+    }
     super::bottom::unknown(&read.table, &mut problems);
     super::ends::cut_off(&read.table, &mut problems);
     super::checks::missing(&mut read.table, &mut problems);

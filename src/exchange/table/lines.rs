@@ -4,7 +4,7 @@
 //! Units, axes and origin are found as those of bodies are, and `parts` chooses layers. Sections at [`LEAST_SECTIONS`] x
 //! and more stand before waterlines; of waterlines that are drawn as well, sections between the outermost of these and
 //! the ends of the hull are made (`along`). Curves at one y and all others (diagonals, chines in space) are left out, and
-//! the layers of these are named.
+//! the layers of these are named. At one x layers with few planes count where those with many have nothing.
 
 mod across;
 mod along;
@@ -28,6 +28,9 @@ const FLAT: f64 = 1e-5;
 
 /// With fewer sections waterlines, where there are enough, make the table.
 const LEAST_SECTIONS: usize = 5;
+
+/// Sections of more points on the average are samples of curves, whose turns are no chines.
+const FEW: usize = 6;
 
 /// Layers that a message names at most.
 const MOST_NAMED: usize = 8;
@@ -107,7 +110,10 @@ pub(super) fn read(name: &str, bytes: &[u8], sidecar: &[(&str, &str)]) -> Option
         unit: 1.0,
     };
     let read = table(body, problems);
-    Some(read.and_then(|read| super::formats::checked(name, read, &settings, false)))
+    Some(read.and_then(|read| {
+        let few = read.table.point_count() <= FEW * read.table.stations.len();
+        super::formats::checked(name, read, &settings, [false, few])
+    }))
 }
 
 /// The chosen curves in the ship's frame.

@@ -181,8 +181,9 @@ fn sampled(curve: &BsplineCurve<4>) -> Vec<[f64; 3]> {
         let mut count = CHORDS[0];
         let mut chords: Vec<[f64; 3]> = (0..=count).map(|k| place(k, count)).collect();
         while 2 * count <= most {
-            let finer: Vec<[f64; 3]> =
-                (0..=2 * count).map(|k| if k.is_multiple_of(2) { chords[k / 2] } else { place(k, 2 * count) }).collect();
+            let finer: Vec<[f64; 3]> = (0..=2 * count)
+                .map(|k| if k.is_multiple_of(2) { chords[k / 2] } else { place(k, 2 * count) })
+                .collect();
             let off = finer.windows(3).step_by(2).map(|w| {
                 let middle = [0, 1, 2].map(|k| 0.5 * (w[0][k] + w[2][k]));
                 length(minus(w[1], middle))

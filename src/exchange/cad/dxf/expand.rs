@@ -61,6 +61,9 @@ impl Insert {
     }
 }
 
+/// Curves of a drawing at most.
+const MOST_CURVES: usize = 100_000;
+
 /// What a drawing shows.
 #[derive(Debug, Default)]
 pub(super) struct Expanded {
@@ -116,6 +119,8 @@ impl Expanded {
             }
             let most = if self.points > MOST_POINTS {
                 format!("curves of more than {MOST_POINTS} points")
+            } else if self.curves.len() > MOST_CURVES {
+                format!("more than {MOST_CURVES} curves")
             } else if self.faces.len() > MOST_TRIANGLES {
                 format!("more than {MOST_TRIANGLES} triangles")
             } else {

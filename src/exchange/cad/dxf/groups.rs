@@ -281,9 +281,7 @@ impl<'a> Records<'a> {
                 let bytes = self.take(8)?;
                 Value::Real(f64::from_le_bytes(bytes.try_into().ok()?))
             }
-            60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => {
-                Value::Whole(self.bytes_whole(2)?)
-            }
+            60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => Value::Whole(self.bytes_whole(2)?),
             90..=99 | 420..=429 | 440..=459 | 1071 => Value::Whole(self.bytes_whole(4)?),
             160..=169 => Value::Whole(self.bytes_whole(8)?),
             290..=299 => Value::Whole(self.bytes_whole(1)?),

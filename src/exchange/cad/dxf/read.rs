@@ -193,7 +193,8 @@ fn drawing(
         let message = if acis.is_empty() {
             let kinds = list(&|_| true);
             let there = if kinds.is_empty() { String::new() } else { format!("; there are {kinds}") };
-            let off = if hidden > 0 { format!("; {hidden} lie on layers that are off or frozen") } else { String::new() };
+            let off =
+                if hidden > 0 { format!("; {hidden} lie on layers that are off or frozen") } else { String::new() };
             format!("no faces and no curves{there}{off}")
         } else {
             format!("its surfaces are data of ACIS, which are not read ({acis}): export STEP, IGES or a mesh")

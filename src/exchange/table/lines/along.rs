@@ -1,9 +1,10 @@
 //! Sections that are made of waterlines: their half-breadths at one x, between the contour of keel, stem and stern below
 //! and the deck at side above; straight between them.
 //!
-//! The contour is of the curves on the centreplane that pass through the ends of waterlines or have its names as layers.
-//! Where there is none, the ends of the waterlines are it.
+//! The contour is of the curves on the centreplane that pass through the ends of waterlines, have its names as layers, or
+//! stand upright on the layer of sections. Where there is none, the ends of the waterlines are it.
 
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use super::super::outline::point;
@@ -28,6 +29,9 @@ const DECKS: [&str; 2] = ["SHEER", "DECK"];
 /// A contour ends the hull where it rises to the top of the outermost section less this part of its height.
 const RISEN: f64 = 0.2;
 
+/// Ends of waterlines at which contours are looked for.
+const MOST_ENDS: usize = 400;
+
 /// A waterline by the curves that draw it.
 struct Waterline<'a> {
     z: f64,
@@ -46,6 +50,10 @@ pub(super) struct Along<'a> {
 fn has_word(line: &SpaceCurve, words: &[&str]) -> bool {
     let layer = line.layer.to_ascii_uppercase();
     words.iter().any(|word| layer.contains(word))
+}
+
+fn is_deck(line: &SpaceCurve, slack: f64) -> bool {
+    has_word(line, &DECKS) && !line.is_flat(0, slack)
 }
 
 /// The values of a polyline at a place of one of its coordinates.
@@ -93,18 +101,28 @@ impl<'a> Along<'a> {
             .map(|(x, line)| [x, line.z])
             .collect();
         let flat = |line: &SpaceCurve| line.points.iter().map(|&[x, _, z]| [x, z]).collect::<Vec<_>>();
+        let stride = (ends.len() / MOST_ENDS).max(1);
         let passes = |line: &SpaceCurve| {
             let points = flat(line);
-            ends.iter().filter(|end| near(&points, **end) <= SEAM * size).count() > 1
+            ends.iter().step_by(stride).filter(|end| near(&points, **end) <= SEAM * size).count() > 1
         };
         let mut contour: Vec<Vec<[f64; 2]>> =
             planes.middle.iter().filter(|l| has_word(l, &CONTOURS) || passes(l)).map(|l| flat(l)).collect();
-        if contour.is_empty() {
-            let halves = [0, 1].map(|k| ends.iter().copied().skip(k).step_by(2).collect::<Vec<_>>());
-            contour.extend(halves.into_iter().filter(|half| half.len() > 1));
+        // A section without breadth on the layer of the others, and a keel that is drawn as a waterline without breadth.
+        let layers = |lines: &[&'a SpaceCurve]| lines.iter().map(|l| l.layer.as_str()).collect::<BTreeSet<&str>>();
+        let (across, level) = (layers(&planes.across), layers(&planes.level));
+        let is_upright = |l: &SpaceCurve| l.is_flat(0, slack) && across.contains(l.layer.as_str());
+        let is_keel = |l: &SpaceCurve| l.is_flat(2, slack) && level.contains(l.layer.as_str());
+        contour.extend(planes.middle.iter().filter(|l| is_upright(l)).map(|l| flat(l)));
+        let keel: Vec<Vec<[f64; 2]>> = planes.middle.iter().filter(|l| is_keel(l)).map(|l| flat(l)).collect();
+        if contour.is_empty() && !ends.is_empty() {
+            let middle = ends.iter().map(|end| end[0]).sum::<f64>() / ends.len() as f64;
+            let (aft, fore): (Vec<_>, Vec<_>) = ends.iter().copied().partition(|end| end[0] < middle);
+            contour.extend([aft, fore].into_iter().filter(|half| half.len() > 1));
         }
+        contour.extend(keel);
         let named = planes.others.iter().chain(&planes.level).chain(&planes.across);
-        let sheer = named.copied().filter(|line| has_word(line, &DECKS) && !line.is_flat(0, slack)).collect();
+        let sheer = named.copied().filter(|line| is_deck(line, slack)).collect();
         Self { waterlines, contour, sheer, size }
     }
 
@@ -115,7 +133,7 @@ impl<'a> Along<'a> {
 
     /// Whether a curve is the deck at side.
     pub(super) fn uses(&self, line: &SpaceCurve) -> bool {
-        self.sheer.iter().any(|own| std::ptr::eq(*own, line))
+        is_deck(line, FLAT * self.size)
     }
 
     /// The points of one side at x from below: of the contour, the waterlines and the deck.
@@ -174,6 +192,13 @@ impl<'a> Along<'a> {
                     self::made(x, self.points(x))
                 });
                 added.extend(between.filter(|section| section.branches[0].len() > 1));
+            }
+            if added.len() == 1 {
+                let message = format!(
+                    "a line on the centreplane at x = {:.3} m ends the hull, straight from the section at x = {from:.3} m",
+                    end.x
+                );
+                problems.warning("W334", FilePosition::FILE, message, "");
             }
             made += added.len() - 1;
             list.extend(added);
