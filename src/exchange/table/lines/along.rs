@@ -2,7 +2,7 @@
 //! and the deck at side above; straight between them.
 //!
 //! The contour is of the curves on the centreplane that pass through the ends of waterlines, have its names as layers, or
-//! stand upright on the layer of sections. Where there is none, the ends of the waterlines are it.
+//! stand upright on the layer of sections. Where there is none at an end, the ends of the waterlines are it.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -115,10 +115,16 @@ impl<'a> Along<'a> {
         let is_keel = |l: &SpaceCurve| l.is_flat(2, slack) && level.contains(l.layer.as_str());
         contour.extend(planes.middle.iter().filter(|l| is_upright(l)).map(|l| flat(l)));
         let keel: Vec<Vec<[f64; 2]>> = planes.middle.iter().filter(|l| is_keel(l)).map(|l| flat(l)).collect();
-        if contour.is_empty() && !ends.is_empty() {
-            let middle = ends.iter().map(|end| end[0]).sum::<f64>() / ends.len() as f64;
-            let (aft, fore): (Vec<_>, Vec<_>) = ends.iter().copied().partition(|end| end[0] < middle);
-            contour.extend([aft, fore].into_iter().filter(|half| half.len() > 1));
+        // Where most ends of waterlines are on no contour, they are it.
+        let [low, high] = waterlines.iter().map(Waterline::range).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+        let middle = 0.5 * (low + high) / waterlines.len().max(1) as f64;
+        let (aft, fore): (Vec<[f64; 2]>, Vec<[f64; 2]>) = ends.iter().copied().partition(|end| end[0] < middle);
+        for half in [aft, fore].into_iter().filter(|half| half.len() > 1) {
+            let is_free = |end: &&[f64; 2]| !contour.iter().any(|line| near(line, **end) <= SEAM * size);
+            let looked = || half.iter().step_by(stride);
+            if 2 * looked().filter(is_free).count() > looked().count() {
+                contour.push(half);
+            }
         }
         contour.extend(keel);
         let named = planes.others.iter().chain(&planes.level).chain(&planes.across);

@@ -1,5 +1,5 @@
 use super::super::read_table;
-use super::*;
+use super::along::SECTIONS;
 
 /// An IGES file of curves of degree 1 through points (entity 126), in metres.
 fn iges(curves: &[Vec<[f64; 3]>]) -> String {
@@ -66,7 +66,7 @@ fn waterlines_alone_make_sections() {
         (0..4).map(|j| (0..6).map(|i| wedge(4.0 * f64::from(i), f64::from(j))).collect()).collect();
     let read = read_table("a.igs", iges(&curves).as_bytes()).unwrap();
     assert!(read.notes.iter().any(|note| note.code == "W334"));
-    assert_eq!(read.table.stations.len(), SECTIONS);
+    assert_eq!(read.table.stations.len(), SECTIONS + 1);
     for station in &read.table.stations {
         assert_eq!(station.outlines[0].len(), 4);
         assert!(station.outlines[0].iter().all(|p| (p.y - wedge(station.station.x, p.z)[1]).abs() < 1e-9));
