@@ -45,7 +45,7 @@ XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS
 DELFTship, input of Michlet, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
 say what it leaves open (units, axes, Lpp, B, T).
 Bodies: meshes as STL (binary, ASCII), OBJ, PLY, OFF, GLB, glTF, 3MF, VTK and gmsh, panels as GDF, NEMOH (.mar, .dat), PNL and HydroStar, closed or without deck, transom and flat bow; the faces of IGES and STEP \
-files, trimmed or not; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, body (\"half\" or \"whole\"), x_origin \
+files, trimmed or not; faces of DXF by layers, or its stations and waterlines in space; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, body (\"half\" or \"whole\"), x_origin \
 and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 
 /// Generates, fits and fairs ship hulls, and computes their hydrostatics and drawings.

@@ -1,7 +1,16 @@
 //! DXF: polylines on named layers, in space or flat; of AutoCAD R12 (AC1009), which every program that reads DXF takes,
-//! or 2000.
+//! or 2000. Read are texts and binary files of all versions: faces by layers, or curves.
 
+mod curves;
+mod expand;
+mod faces;
+mod groups;
 mod r2000;
+mod read;
+mod unit;
+
+pub(in super::super) use groups::is_dxf;
+pub(in super::super) use read::{Drawing, read_dxf};
 
 use std::fmt::Write as _;
 

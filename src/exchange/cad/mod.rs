@@ -5,6 +5,7 @@ mod iges;
 mod step;
 mod surfaces;
 
+pub(super) use dxf::{Drawing, is_dxf, read_dxf};
 pub use dxf::{DxfLine, DxfVersion, write_dxf};
 pub use iges::write_iges;
 pub(super) use iges::{is_iges, read_iges};

@@ -44,6 +44,8 @@ pub(in super::super) struct CadCurve {
     pub(in super::super) line: usize,
     /// Points in turn, knots among them.
     pub(in super::super) points: Vec<[f64; 3]>,
+    /// Its layer; empty where the format has none.
+    pub(in super::super) layer: String,
 }
 
 /// A surface of knots, weights and points, in the order u slowest; none, with a fault, when they do not fit together.
@@ -103,7 +105,7 @@ pub(super) fn points_of(line: usize, curve: &BsplineCurve<4>, [from, to]: [f64; 
         let [x, y, z, w] = curve.eval(t);
         [x / w, y / w, z / w]
     });
-    CadCurve { line, points: points.collect() }
+    CadCurve { line, points: points.collect(), ..CadCurve::default() }
 }
 
 /// Knots that differ by rounding of their text are one.

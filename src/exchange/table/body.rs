@@ -8,11 +8,11 @@
 
 mod cad;
 pub(super) mod frame;
-mod parts;
+pub(super) mod parts;
 
 use std::f64::consts::PI;
 
-use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
+use super::super::cad::{CadSurfaces, Drawing, is_dxf, is_iges, is_step, read_dxf, read_iges, read_step};
 use super::super::fault::RecordFault;
 #[cfg(feature = "packages")]
 use super::super::mesh::{PackagedMesh, is_threemf, is_vtk_xml, read_threemf, read_vtk_xml};
@@ -46,7 +46,7 @@ const FACES: usize = 60_000;
 const STEPS: usize = 6;
 
 /// Ends of sections of surfaces that are as near to each other as this part of the length are joined.
-const SEAM: f64 = 2e-4;
+pub(super) const SEAM: f64 = 2e-4;
 
 /// A body in the ship's frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,6 +76,8 @@ enum Shape {
     Named(Vec<NamedMesh>, Given),
     Surfaces(CadSurfaces),
     Net(SubdivisionProject),
+    /// Faces by layers, or curves.
+    Drawn(Drawing),
     /// What cannot be read.
     Nothing,
 }
@@ -125,6 +127,7 @@ const FORMATS: &[BodyFormat] = &[
     BodyFormat::new("FREE!ship", &[".ftm"], is_ftm, |bytes| read_ftm(bytes).map(Shape::Net)),
     BodyFormat::new("STEP", &[".step", ".stp"], is_step, |bytes| read_step(bytes).map(Shape::Surfaces)),
     BodyFormat::new("IGES", &[".iges", ".igs"], is_iges, |bytes| read_iges(bytes).map(Shape::Surfaces)),
+    BodyFormat::new("DXF", &[".dxf"], is_dxf, |bytes| read_dxf(bytes).map(Shape::Drawn)),
     BodyFormat::new("PLY", &[".ply"], is_ply, |bytes| read_ply(bytes).map(plain)),
     BodyFormat::new("OFF", &[], is_off, |bytes| read_off(bytes).map(plain)),
     BodyFormat::new("gmsh", &[".msh"], is_msh, |bytes| read_msh(bytes).map(plain)),
@@ -158,7 +161,7 @@ fn format(name: &str, bytes: &[u8]) -> Option<&'static BodyFormat> {
 }
 
 /// Reads a body: a mesh (STL, OBJ, PLY, OFF, GLB, glTF, 3MF, VTK, gmsh), panels (GDF, PNL, NEMOH, HydroStar), the
-/// surfaces of a CAD file (STEP, IGES) or a control net (FREE!ship), by its content or its name, with the conventions of
+/// surfaces of a CAD file (STEP, IGES), the faces of a drawing (DXF) or a control net (FREE!ship), by its content or its name, with the conventions of
 /// the TOML beside it, given by its name and its text, and of others, each over those before it; none when it is no such
 /// file.
 pub fn read_body<'a>(
@@ -177,6 +180,9 @@ pub fn read_body<'a>(
         Shape::Nothing
     });
     // Curves alone are a table.
+    if matches!(&shape, Shape::Drawn(drawing) if drawing.parts.is_empty()) {
+        return None;
+    }
     if let Shape::Surfaces(CadSurfaces { surfaces, body, unread, .. }) = &shape
         && surfaces.is_empty()
         && body.faces.is_empty()
@@ -184,6 +190,10 @@ pub fn read_body<'a>(
     {
         return None;
     }
+    let shape = match shape {
+        Shape::Drawn(drawing) => of_drawing(drawing, &settings, &mut problems),
+        other => other,
+    };
     let choice = settings.frame.parts.clone();
     let choice = choice.as_deref();
     let shape = match shape {
@@ -204,7 +214,7 @@ pub fn read_body<'a>(
     };
     let mut deviation = 0.0;
     let meshes = match shape {
-        Shape::Named(..) | Shape::Nothing => Vec::new(),
+        Shape::Named(..) | Shape::Drawn(_) | Shape::Nothing => Vec::new(),
         Shape::Triangles(mesh, given) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
@@ -252,6 +262,25 @@ pub fn read_body<'a>(
     }))
 }
 
+/// The faces of a drawing by layers, with what of it is not read, and a warning where it states no unit.
+fn of_drawing(Drawing { parts, unit, notes, .. }: Drawing, settings: &Settings, problems: &mut Problems) -> Shape {
+    notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
+    Shape::Named(parts, Given::plain(drawing_unit(unit, settings, problems)))
+}
+
+/// Metres in the unit of a drawing; metres, with a warning, where neither the file nor the settings state it.
+pub(super) fn drawing_unit(unit: Option<f64>, settings: &Settings, problems: &mut Problems) -> f64 {
+    match unit {
+        Some(unit) => problems.note(format!("the unit of the file is {unit} m")),
+        None if settings.units.is_none() && settings.frame.scale.is_none() => {
+            let message = "the file states no unit of length: its numbers are taken as metres".to_owned();
+            problems.warning("W320", FilePosition::FILE, message, "Say --input-unit (units in the TOML beside it)");
+        }
+        None => {}
+    }
+    unit.unwrap_or(1.0)
+}
+
 pub(super) fn faulty(faults: Vec<RecordFault>, problems: &mut Problems) {
     for RecordFault { line, found, message } in faults {
         let place = line.map_or(FilePosition::FILE, FilePosition::row);
@@ -268,7 +297,7 @@ pub(in super::super) fn body_faults(name: &str, faults: Vec<RecordFault>) -> Vec
 
 /// Lines whose ends are within `slack` of each other as one, the nearest ends first; each end has one mate at most. Of
 /// n ends near each other all pairs are looked at, of others those that are within `slack` across.
-fn joined(lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
+pub(super) fn joined(lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
     // End 2 k is the first point of line k, 2 k + 1 its last.
     let end = |e: usize| {
         let points = &lines[e / 2].points;

@@ -42,19 +42,29 @@ pub(super) fn read(
     }
     let text = with_line_ends(String::from_utf8_lossy(bytes));
     let read = recognised(name, &text, sidecar, settings)?;
-    Some(read.and_then(|mut read| {
-        let mut problems = Problems::new(name);
-        let own_unit = !points::recognise(name, &text);
-        super::obeyed::obey(settings, own_unit, &mut read.table, &mut problems);
+    Some(read.and_then(|read| checked(name, read, settings, [!points::recognise(name, &text), true])))
+}
+
+/// A table with what the settings say of it, and with what is unknown of its bottom and ends. `own_unit`: its format
+/// states the unit; `chines`: its points are no samples of curves, and may be on chines.
+pub(super) fn checked(
+    name: &str,
+    mut read: ReadTable,
+    settings: &Settings,
+    [own_unit, chines]: [bool; 2],
+) -> Result<ReadTable, Vec<TableProblem>> {
+    let mut problems = Problems::new(name);
+    super::obeyed::obey(settings, own_unit, &mut read.table, &mut problems);
+    if chines {
         super::chines::mark(&mut read.table, &mut problems);
-        super::bottom::unknown(&read.table, &mut problems);
-        super::ends::cut_off(&read.table, &mut problems);
-        super::checks::missing(&mut read.table, &mut problems);
-        super::checks::particulars(&read.table, &mut problems);
-        read.notes.extend(problems.finish()?);
-        read.notes.sort_by_key(|note| (note.row.unwrap_or(0), note.column.unwrap_or(0)));
-        Ok(read)
-    }))
+    }
+    super::bottom::unknown(&read.table, &mut problems);
+    super::ends::cut_off(&read.table, &mut problems);
+    super::checks::missing(&mut read.table, &mut problems);
+    super::checks::particulars(&read.table, &mut problems);
+    read.notes.extend(problems.finish()?);
+    read.notes.sort_by_key(|note| (note.row.unwrap_or(0), note.column.unwrap_or(0)));
+    Ok(read)
 }
 
 /// The table in a text of one of the formats.

@@ -14,13 +14,15 @@ const FIRST_BYTES: [(&[u8], &str); 11] = [
     (b"%PDF", "a PDF document"),
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
-    (b"AC10", "a drawing (DWG)"),
+    (b"AC10", DWG),
     (b"\xd0\xcf\x11\xe0", "a workbook or document of the older binary Office format"),
 ];
 
 /// Endings of names of files that are no text, or none that we read.
-const ENDINGS: [(&str, &str); 3] =
-    [(".3dm", "a Rhinoceros file (3dm)"), (".dxf", "a drawing (DXF)"), (".dwg", "a drawing (DWG)")];
+const ENDINGS: [(&str, &str); 2] = [(".3dm", "a Rhinoceros file (3dm)"), (".dwg", DWG)];
+
+/// Drawings of a form that is not published.
+pub(super) const DWG: &str = "a drawing (DWG)";
 
 /// The kind of a file that holds no table of offsets; none when it may hold one.
 pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {
@@ -37,10 +39,6 @@ pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {
     }
     if start.trim_start().starts_with('{') {
         return Some("JSON (of a hull? hydro, section, inspect and report read those)");
-    }
-    let mut words = start.split_whitespace();
-    if (words.next(), words.next()) == (Some("0"), Some("SECTION")) {
-        return Some("a drawing (DXF)");
     }
     let name = name.to_ascii_lowercase();
     ENDINGS.iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, kind)| *kind)

@@ -195,7 +195,7 @@ pub(super) const REMARKS: [Explanation; 40] = [
     Explanation {
         code: "W352",
         title: "Surfaces that are not read",
-        cause: "A STEP or IGES file has entities beside its faces that are not read.",
+        cause: "A STEP, IGES or DXF file has entities beside its faces or curves that are not read.",
         example: "`1 CYLINDRICAL_SURFACE of no face are not read`.",
         remedy: "Nothing, if these entities are no part of the hull.",
     },

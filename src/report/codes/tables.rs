@@ -187,9 +187,10 @@ pub(super) const TABLES: [Explanation; 33] = [
     Explanation {
         code: "E328",
         title: "Text format without a hull",
-        cause: "A file of a known format has no shape, section or curve of a hull, or fewer than two sections.",
+        cause: "A file of a known format has no shape, section or curve of a hull, or fewer than two sections. A drawing \
+         whose lines lie in one plane has no place in space for them.",
         example: "A file of GHS with no shapes.",
-        remedy: "Give a file with the hull over its centreplane. At least two sections are needed.",
+        remedy: "Give a file with the hull over its centreplane, or lines in space. At least two sections are needed.",
     },
     Explanation {
         code: "E340",

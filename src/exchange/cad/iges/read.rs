@@ -270,7 +270,7 @@ fn entity_110(faults: &mut Faults, line: usize, name: &str, list: &[f64], place:
     };
     let points = [[*ax, *ay, *az], [*bx, *by, *bz]].map(|point| motion(place).point(point));
     if points.iter().flatten().all(|c| c.is_finite()) {
-        return Some(CadCurve { line, points: points.to_vec() });
+        return Some(CadCurve { line, points: points.to_vec(), ..CadCurve::default() });
     }
     faults.add(Some(line), name, "a coordinate that is no number".to_owned());
     None

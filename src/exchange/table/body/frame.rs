@@ -94,7 +94,7 @@ pub(in super::super) fn framed(
 ) -> Vec<TriangleMesh> {
     let Some(bounds) = meshes[0].bounds().filter(|_| !problems.any_errors()) else { return meshes };
     let Some(placement) = Placement::of(bounds, settings, given, problems) else { return meshes };
-    let BodyFrame { x_origin, z_origin, .. } = settings.frame;
+    let BodyFrame { x_origin, .. } = settings.frame;
     let surfaces = given.surfaces;
     let place = |corner: [f64; 3]| placement.place(corner);
     let (mut half, mut united) = (None, false);
@@ -155,13 +155,8 @@ pub(in super::super) fn framed(
         );
         problems.warning("W320", FilePosition::FILE, message, "");
     }
-    let depth = greatest[2] - least[2];
-    if z_origin.is_none() && !at_surface && least[2].abs() > 0.2 * depth {
-        let message = format!(
-            "the lowest point is {:.3} m from z = 0 of the file, from where draughts count; z_origin in the TOML beside it moves it",
-            least[2]
-        );
-        problems.warning("W320", FilePosition::FILE, message, "");
+    if !at_surface {
+        off_base([least[2], greatest[2]], settings, problems);
     }
     // The pieces of a union are no conforming mesh.
     let open = if surfaces || united { Vec::new() } else { meshes[0].open_edges() };
@@ -195,8 +190,18 @@ pub(in super::super) fn framed(
     meshes
 }
 
+/// Says of bodies whose lowest point is far from z = 0 that draughts count from there; nothing where z_origin is given.
+pub(in super::super) fn off_base([low, high]: [f64; 2], settings: &Settings, problems: &mut Problems) {
+    if settings.frame.z_origin.is_none() && low.abs() > 0.2 * (high - low) {
+        let message = format!(
+            "the lowest point is {low:.3} m from z = 0 of the file, from where draughts count; z_origin in the TOML beside it moves it"
+        );
+        problems.warning("W320", FilePosition::FILE, message, "");
+    }
+}
+
 /// Says of bodies that are very short or very long for a ship that their unit may be another.
-fn size(length: f64, given: &Given, settings: &Settings, problems: &mut Problems) {
+pub(in super::super) fn size(length: f64, given: &Given, settings: &Settings, problems: &mut Problems) {
     let is_stated = settings.units.is_some() || settings.frame.scale.is_some();
     if is_stated || (SHORT..=LONG).contains(&length) || !(0.01..=1e4).contains(&length) {
         return;

@@ -35,7 +35,11 @@ fn names(choice: Option<&[PartChoice]>) -> Vec<&str> {
 }
 
 /// Which of the names a file has are chosen; all where none is. A name that it has not is a problem.
-pub(super) fn chosen_names(known: &[&str], choice: Option<&[PartChoice]>, problems: &mut Problems) -> Vec<bool> {
+pub(in super::super) fn chosen_names(
+    known: &[&str],
+    choice: Option<&[PartChoice]>,
+    problems: &mut Problems,
+) -> Vec<bool> {
     let names = names(choice);
     for name in &names {
         if !known.iter().any(|own| own.eq_ignore_ascii_case(name)) {
