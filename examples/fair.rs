@@ -5,6 +5,7 @@
 
 use loftsman::prelude::*;
 
+/// Prints the verdict, and writes the hull with its tables.
 pub fn main() -> Result<(), Failure> {
     let settings = [("dimensions.T", "6.502"), ("tolerance.table", "20 mm"), ("hold.LCB", "-1.5 %")];
     let faired = fair("tests/data/series60_cb060/offsets.csv", &settings)?;
