@@ -4,8 +4,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use loftsman::fairing::suspects;
-use loftsman::hull::{Cell, OffsetTable, StationOffsets};
+use loftsman::internals::fairing::suspects;
+use loftsman::internals::hull::{Cell, OffsetTable, StationOffsets};
 
 fn table() -> OffsetTable {
     let waterlines: Vec<f64> = (0..25).map(|j| 0.4 * f64::from(j)).collect();

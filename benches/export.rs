@@ -1,11 +1,11 @@
 //! Files for other programs: STEP of one net beside its numbers alone, the mesh, and all formats of one hull.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use loftsman::exchange::{CadUnit, write_step};
-use loftsman::hull::{Hull, HullMesh, PrincipalParticulars, Solid};
-use loftsman::parametric::analytic::{self, Dimensions};
-use loftsman::report::{ExportFormat, ExportSettings, export};
-use loftsman::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use loftsman::internals::exchange::{CadUnit, write_step};
+use loftsman::internals::hull::{Hull, HullMesh, PrincipalParticulars, Solid};
+use loftsman::internals::parametric::analytic::{self, Dimensions};
+use loftsman::internals::report::{ExportFormat, ExportSettings, export};
+use loftsman::internals::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use std::fmt::Write as _;
 use std::hint::black_box;
 

@@ -1,7 +1,7 @@
 //! Milliseconds from a table of offsets to a hull, for tables from 20 x 25 to 80 x 50 cells.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use loftsman::hull::{Cell, FitMethod, Hull, OffsetTable, StationOffsets};
+use loftsman::internals::hull::{Cell, FitMethod, Hull, OffsetTable, StationOffsets};
 
 /// A hull with a flat of bottom, a raked stern and a flat side.
 fn table(stations: usize, waterlines: usize) -> OffsetTable {

@@ -1,9 +1,9 @@
 //! The whole generator, from requested to the exact hull, without tables and drawings.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use loftsman::parametric::ShipType;
-use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
-use loftsman::parametric::ucl_cosh;
+use loftsman::internals::parametric::ShipType;
+use loftsman::internals::parametric::cosh::{self, DesignTargets, MidshipTarget};
+use loftsman::internals::parametric::ucl_cosh;
 use std::hint::black_box;
 
 fn requested(ship: ShipType, dimensions: [f64; 4], block: f64, midship: f64) -> DesignTargets {

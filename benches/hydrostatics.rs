@@ -6,11 +6,11 @@
 //! z(u, v), with upright stations and with lines that rake.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use loftsman::hull::{Hull, PrincipalParticulars};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::parametric::ShipType;
-use loftsman::parametric::cosh::{self, DesignTargets};
-use loftsman::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use loftsman::internals::hull::{Hull, PrincipalParticulars};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
+use loftsman::internals::parametric::ShipType;
+use loftsman::internals::parametric::cosh::{self, DesignTargets};
+use loftsman::internals::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use std::hint::black_box;
 
 fn hull(slanting: bool) -> Hull {

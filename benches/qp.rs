@@ -12,7 +12,7 @@
 #[path = "../tests/qp_problems/mod.rs"]
 mod qp_problems;
 
-use loftsman::qp::{Problem, Settings, Solution, Solver};
+use loftsman::internals::qp::{Problem, Settings, Solution, Solver};
 use qp_problems::{constant_part, fairing_of, readings, second_opinion};
 use std::process::Command;
 use std::time::Instant;

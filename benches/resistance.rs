@@ -4,11 +4,11 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use loftsman::hull::Hull;
-use loftsman::parametric::ShipType;
-use loftsman::parametric::analytic::{self, Dimensions};
-use loftsman::parametric::cosh::{self, DesignTargets};
-use loftsman::resistance::{ThinShip, Water};
+use loftsman::internals::hull::Hull;
+use loftsman::internals::parametric::ShipType;
+use loftsman::internals::parametric::analytic::{self, Dimensions};
+use loftsman::internals::parametric::cosh::{self, DesignTargets};
+use loftsman::internals::resistance::{ThinShip, Water};
 
 fn speeds(length: f64, water: &Water) -> Vec<f64> {
     (0..21).map(|n| (0.2 + 0.02 * f64::from(n)) * (water.gravity * length).sqrt()).collect()

@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use loftsman::hull::{Cut, Hull, PrincipalParticulars};
-use loftsman::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
+use loftsman::internals::hull::{Cut, Hull, PrincipalParticulars};
+use loftsman::internals::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
 
 const LENGTH: f64 = 100.0;
 const BREADTH: f64 = 10.0;

@@ -1,7 +1,7 @@
 //! Nanoseconds a point for point, first and second derivatives of bicubic surfaces, scattered and on a grid.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use loftsman::spline::{BsplineSurface, KnotVector, SurfaceJet};
+use loftsman::internals::spline::{BsplineSurface, KnotVector, SurfaceJet};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 use std::hint::black_box;
 

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    loftsman::cli::run(std::env::args_os())
+    loftsman::internals::cli::run(std::env::args_os())
 }

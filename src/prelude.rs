@@ -30,19 +30,23 @@
 
 use std::path::Path;
 
+#[doc(no_inline)]
 pub use crate::fairing::curve::CurveSettings;
+#[doc(no_inline)]
 pub use crate::hull::{Cut, Hull, OffsetTable, Section};
+#[doc(no_inline)]
 pub use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
+#[doc(no_inline)]
 pub use crate::report::{
-    CompareOutputs, CurveJob, DeriveOutputs, ExportFormat, ExportSettings, Exported, Failure, FairOutputs, FairedCurve,
-    FitOutputs, OutputFile, Outputs, ReportSettings, Source,
+    CompareOutputs, DeriveOutputs, ExportFormat, Exported, Failure, FairOutputs, FairedCurve, FitOutputs, OutputFile,
+    Outputs, Source,
 };
 
 use crate::config::{DeriveFile, read_derive_option};
 use crate::report::{
-    CompareJob, Destination, Inputs, Overrides, compare_outputs, derive_outputs, fair_outputs, faired_curve,
-    fit_outputs, generate_outputs, read_derive_job, read_design, read_fair, read_fit, read_hydrostatic_body,
-    read_result, read_source, report_outputs, sections_of,
+    CompareJob, CurveJob, Destination, ExportSettings, Inputs, Overrides, ReportSettings, compare_outputs,
+    derive_outputs, fair_outputs, faired_curve, fit_outputs, generate_outputs, read_derive_job, read_design, read_fair,
+    read_fit, read_hydrostatic_body, read_result, read_source, report_outputs, sections_of,
 };
 
 /// Hydrostatics of a body, and what should be known about it.

@@ -4,11 +4,11 @@
 //! interpolation of degree 7 of graded parameters (angles) for the round ones. Tolerance 1e-10 relative, 1e-8 for the
 //! wetted surface and what is made of it.
 
-use loftsman::hull::{Functional, Hull, PrincipalParticulars};
-use loftsman::hydrostatics::{
+use loftsman::internals::hull::{Functional, Hull, PrincipalParticulars};
+use loftsman::internals::hydrostatics::{
     CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, PrismaticSection, QUANTITIES, Shell,
 };
-use loftsman::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
+use loftsman::internals::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
 use std::f64::consts::FRAC_PI_2;
 
 use crate::analytic_round_bodies::ellipsoid;

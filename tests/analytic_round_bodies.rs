@@ -1,6 +1,6 @@
 //! Hydrostatics of half cylinders and ellipsoids against their closed forms.
 
-use loftsman::hull::Hull;
+use loftsman::internals::hull::Hull;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::analytic_bodies::{Closed, Product, check, interpolate, knots};

@@ -1,9 +1,10 @@
 //! A module imports only from floors strictly below its own: never sideways, never upwards, never through the crate root.
+//! Floors are private; `internals` has all of them for what stands outside the library.
 
 use crate::support::{carried, read_text, sources};
 
 /// Every module with its floor.
-const FLOORS: [(&str, usize); 17] = [
+const FLOORS: [(&str, usize); 18] = [
     ("numeric", 0),
     ("units", 0),
     ("spline", 1),
@@ -20,7 +21,8 @@ const FLOORS: [(&str, usize); 17] = [
     ("report", 6),
     ("cli", 7),
     ("prelude", 7),
-    ("main", 8),
+    ("internals", 8),
+    ("main", 9),
 ];
 
 fn floor(module: &str) -> Option<usize> {
@@ -33,10 +35,11 @@ fn code(line: &str) -> &str {
     if trimmed.starts_with("//") { "" } else { trimmed.split(" // ").next().unwrap_or(trimmed) }
 }
 
-/// The first names after every `crate::` of a text, groups included: `crate::{hull::Hull, spline}` gives both.
+/// The first names after every `crate::` of a text, groups included: `crate::{hull::Hull, spline}` gives both. From
+/// outside a floor is a module of `internals`.
 fn names(text: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
-    for marker in ["crate::", "loftsman::"] {
+    for marker in ["crate::", "loftsman::internals::"] {
         for (at, _) in text.match_indices(marker) {
             let before = text[..at].chars().next_back();
             if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '$') {
@@ -107,6 +110,20 @@ fn every_import_goes_down() {
     assert!(found.is_empty(), "\n{}", found.join("\n"));
 }
 
+/// What is no floor of the library: what stands above it.
+const ABOVE: [&str; 3] = ["prelude", "internals", "main"];
+
+#[test]
+fn every_floor_is_private_and_open_to_tests() {
+    let (root, internals) = (read_text(carried("src/lib.rs")), read_text(carried("src/internals.rs")));
+    for (module, _) in FLOORS.iter().filter(|(module, _)| !ABOVE.contains(module)) {
+        assert!(root.contains(&format!("\nmod {module};\n")), "{module} is not private in src/lib.rs");
+        let open = format!("pub mod {module} {{\n    pub use crate::{module}::*;\n}}\n");
+        assert!(internals.contains(&open), "{module} is not in src/internals.rs");
+    }
+    assert!(root.contains("#[doc(hidden)]\npub mod internals;\n"));
+}
+
 /// A file that `tests/integration.rs` does not name would never be compiled.
 #[test]
 fn every_file_of_the_tests_is_a_module() {
@@ -123,7 +140,7 @@ fn every_file_of_the_tests_is_a_module() {
 fn downward_imports_pass() {
     let source = "use crate::spline::Curve;\nuse super::quantity;\nuse crate::{numeric::root, hull::Hull};\nlet x = crate::hull::y();\n// use crate::cli;\n";
     assert_eq!(breaches("hydrostatics", "a.rs", source), Vec::<String>::new());
-    assert_eq!(breaches("main", "main.rs", "loftsman::cli::run()"), Vec::<String>::new());
+    assert_eq!(breaches("main", "main.rs", "loftsman::internals::cli::run()"), Vec::<String>::new());
 }
 
 #[test]
@@ -141,5 +158,9 @@ fn every_kind_of_breach_is_found_with_its_line() {
         "a.rs:1: hull (floor 2) imports report (floor 6)"
     );
     assert_eq!(one("spline", "fn f() { crate::hull::g() }"), "a.rs:1: spline (floor 1) imports hull (floor 2)");
+    assert_eq!(
+        one("prelude", "use crate::internals::hull::Hull;"),
+        "a.rs:1: prelude (floor 7) imports internals (floor 8)"
+    );
     assert_eq!(one("utils", ""), "a.rs:1: module utils has no floor");
 }

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use loftsman::exchange::{CadUnit, Severity, read_body, read_subdivision, read_table, write_ftm};
-use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings, TriangleMesh};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
-use loftsman::report::{ExportFormat, ExportSettings, export, read_hydrostatic_body, read_source};
+use loftsman::internals::exchange::{CadUnit, Severity, read_body, read_subdivision, read_table, write_ftm};
+use loftsman::internals::hull::{FitMethod, Hull, PanelMesh, PanelSettings, TriangleMesh};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
+use loftsman::internals::report::{ExportFormat, ExportSettings, export, read_hydrostatic_body, read_source};
 
 use crate::random::Random;
 use crate::support::{carried, folder, program, read_text, stderr};
@@ -27,7 +27,7 @@ fn files(folder: &Path, hull: &Hull, name: &str, formats: &[ExportFormat]) -> Ve
         particulars.breadth,
         hull.reference_height()
     );
-    let write = |file: &loftsman::report::OutputFile| {
+    let write = |file: &loftsman::internals::report::OutputFile| {
         let path = folder.join(&file.name);
         fs::write(&path, &file.contents).unwrap();
         fs::write(path.with_extension("toml"), &beside).unwrap();
@@ -178,7 +178,7 @@ fn a_mesh_is_fitted_like_a_table() {
     let hull = config("bulk-carrier");
     let folder = folder("fitted");
     let path = files(&folder, &hull, "fitted", &[ExportFormat::Stl]).remove(0);
-    let (table, _) = loftsman::report::read_table_file(&path).unwrap();
+    let (table, _) = loftsman::internals::report::read_table_file(&path).unwrap();
     assert_eq!(table.stations.len(), 41);
     let fitted = Hull::fit(&table, &FitMethod::default()).unwrap().hull;
     let draught = [hull.reference_height()];
@@ -201,7 +201,7 @@ fn the_commands_take_meshes() {
     assert_eq!(converted.status.code(), Some(0), "{}", stderr(&converted));
     // The table is the one that the mesh gives, to the rounding of its notation.
     let read = |name: &str| read_table(name, &fs::read(name).unwrap()).unwrap().table;
-    let (table, mesh) = (read(&out), loftsman::report::read_table_file(Path::new(&path)).unwrap().0);
+    let (table, mesh) = (read(&out), loftsman::internals::report::read_table_file(Path::new(&path)).unwrap().0);
     assert_eq!(table.stations.len(), mesh.stations.len());
     for (a, b) in table.stations.iter().zip(&mesh.stations) {
         assert!((a.station.x - b.station.x).abs() < 1e-6);
@@ -277,7 +277,9 @@ fn golden(name: &str) -> String {
 
 /// The volume of the box of the golden files, read from a text with changes, and what is said about it.
 fn volume(name: &str, text: &str, beside: &str) -> Result<(f64, String), String> {
-    let said = |list: &[loftsman::exchange::TableProblem]| list.iter().map(|p| format!("{p}\n")).collect::<String>();
+    let said = |list: &[loftsman::internals::exchange::TableProblem]| {
+        list.iter().map(|p| format!("{p}\n")).collect::<String>()
+    };
     match read_body(name, text.as_bytes(), Some(("box.toml", beside))).unwrap() {
         Ok(body) => {
             let sum = |corners: [[f64; 3]; 3]| {

@@ -4,8 +4,8 @@
 use std::fs;
 use std::path::PathBuf;
 
-use loftsman::hydrostatics::{Conventions, Hydrostatics};
-use loftsman::report::{Failure, read_hydrostatic_body};
+use loftsman::internals::hydrostatics::{Conventions, Hydrostatics};
+use loftsman::internals::report::{Failure, read_hydrostatic_body};
 
 use crate::support::{carried, folder, program, stderr};
 

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use loftsman::config::{DERIVE_KEYS, JOB_KEYS, KEYS, Key, METHOD_KEYS, TABLE_KEYS};
-use loftsman::hydrostatics::QUANTITIES;
+use loftsman::internals::config::{DERIVE_KEYS, JOB_KEYS, KEYS, Key, METHOD_KEYS, TABLE_KEYS};
+use loftsman::internals::hydrostatics::QUANTITIES;
 
 use crate::support::{carried, commands, files_of, program, read_text, stdout};
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use loftsman::report::{catalogue, catalogue_names, index_csv, ranked};
+use loftsman::internals::report::{catalogue, catalogue_names, index_csv, ranked};
 
 use crate::support::{carried, folder, program, stderr, stdout};
 

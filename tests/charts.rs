@@ -1,11 +1,11 @@
 //! Hulls whose heights depend on both parameters: rockered keels, chines, re-parametrised bodies, against closed forms
 //! and quadrature of the formulas of the bodies.
 
-use loftsman::exchange::{read_hull, write_hull};
-use loftsman::hull::{Cut, Face, Functional, Hull, HullError, OffsetTable, PrincipalParticulars};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, QUANTITIES};
-use loftsman::plot::{Figure, FigureInputs};
-use loftsman::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use loftsman::internals::exchange::{read_hull, write_hull};
+use loftsman::internals::hull::{Cut, Face, Functional, Hull, HullError, OffsetTable, PrincipalParticulars};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, QUANTITIES};
+use loftsman::internals::plot::{Figure, FigureInputs};
+use loftsman::internals::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use proptest::prelude::*;
 
 /// The net of degrees p, q that interpolates `body`, with `spans` in u and in v; exact for polynomials of these degrees.

@@ -56,7 +56,7 @@ fn generate_writes_its_files_and_one_screen() {
     let manifest = json(fs::read(Path::new(path).join("manifest.json")).unwrap());
     for entry in manifest["outputs"].as_array().unwrap() {
         let bytes = fs::read(Path::new(path).join(entry["file"].as_str().unwrap())).unwrap();
-        assert_eq!(entry["sha256"], loftsman::exchange::sha256(&bytes), "{entry}");
+        assert_eq!(entry["sha256"], loftsman::internals::exchange::sha256(&bytes), "{entry}");
     }
 }
 

@@ -152,7 +152,7 @@ fn what_is_read_is_not_removed_with_an_earlier_run() {
     let text = fs::read(self::table()).unwrap();
     fs::write(&table, &text).unwrap();
     let entry = serde_json::json!({
-        "file": "table.csv", "bytes": text.len(), "sha256": loftsman::exchange::sha256(&text)
+        "file": "table.csv", "bytes": text.len(), "sha256": loftsman::internals::exchange::sha256(&text)
     });
     let manifest = serde_json::json!({ "program": "loftsman", "version": "0", "input": entry, "outputs": [entry] });
     fs::write(path.join("manifest.json"), manifest.to_string()).unwrap();

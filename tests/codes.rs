@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use loftsman::exchange::{ReadTable, TableProblem, read_table};
-use loftsman::fairing::curve::CurveSettings;
-use loftsman::qp::Status;
-use loftsman::report::{
+use loftsman::internals::exchange::{ReadTable, TableProblem, read_table};
+use loftsman::internals::fairing::curve::CurveSettings;
+use loftsman::internals::qp::Status;
+use loftsman::internals::report::{
     CODES, CurveJob, Explanation, Failure, check_table, codes_page, fair_outputs, faired_curve, fit_outputs, read_fair,
     read_fit, read_source,
 };
-use loftsman::units::Notation;
+use loftsman::internals::units::Notation;
 
 use crate::support::{carried, folder, program, read_text, sources, stderr, stdout};
 

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use loftsman::config::{TEMPLATES, read, template};
-use loftsman::exchange::read_hull;
-use loftsman::report::{generate_outputs, read_design};
+use loftsman::internals::config::{TEMPLATES, read, template};
+use loftsman::internals::exchange::read_hull;
+use loftsman::internals::report::{generate_outputs, read_design};
 use serde_json::Value;
 
 use crate::support::{carried, json, read_text, shared_folder};
@@ -96,5 +96,9 @@ fn the_example_of_the_raw_generator_is_read() {
 #[test]
 fn the_published_schema_is_that_of_the_program() {
     let published = json(read_text(carried("configs/design.schema.json")));
-    assert_eq!(published, loftsman::config::design_schema(), "run `loftsman schema > configs/design.schema.json`");
+    assert_eq!(
+        published,
+        loftsman::internals::config::design_schema(),
+        "run `loftsman schema > configs/design.schema.json`"
+    );
 }

@@ -3,10 +3,10 @@
 
 use std::fs;
 
-use loftsman::config::{DeriveFile, read_derive_option};
-use loftsman::derivation::{Dimensions, Method, Quantity, Reference, Refusal, Request, derive, value_of};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::report::{DeriveJob, DeriveOutputs, Overrides, derive_outputs, read_source};
+use loftsman::internals::config::{DeriveFile, read_derive_option};
+use loftsman::internals::derivation::{Dimensions, Method, Quantity, Reference, Refusal, Request, derive, value_of};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
+use loftsman::internals::report::{DeriveJob, DeriveOutputs, Overrides, derive_outputs, read_source};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;

@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use loftsman::exchange::{read_hull, write_hull};
-use loftsman::fairing::constraint::Constraint;
-use loftsman::fairing::job::{Holding, Job, JobError};
-use loftsman::hull::{FitMethod, Hull};
-use loftsman::hydrostatics::Conventions;
-use loftsman::report::read_source;
+use loftsman::internals::exchange::{read_hull, write_hull};
+use loftsman::internals::fairing::constraint::Constraint;
+use loftsman::internals::fairing::job::{Holding, Job, JobError};
+use loftsman::internals::hull::{FitMethod, Hull};
+use loftsman::internals::hydrostatics::Conventions;
+use loftsman::internals::report::read_source;
 use serde_json::Value;
 
 use crate::support::{Folder, carried, folder, json, names_in, program, read_text, stderr, stdout, table_of};

@@ -1,8 +1,8 @@
 //! Every message about a design file, provoked once; and readers that meet random bytes.
 
-use loftsman::config::read;
-use loftsman::exchange::{read_hgf, read_hull};
-use loftsman::units::{parse, parse_list};
+use loftsman::internals::config::read;
+use loftsman::internals::exchange::{read_hgf, read_hull};
+use loftsman::internals::units::{parse, parse_list};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 

@@ -3,10 +3,12 @@
 use std::fs;
 use std::path::PathBuf;
 
-use loftsman::exchange::{DxfVersion, read_table, sha256};
-use loftsman::hull::{FitMethod, Hull, HullMesh, LEAST_ANGLE, PanelMesh, PanelSettings, Solid, whole_volume};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::report::{ExportFormat, ExportSettings, export, read_source, read_table_file};
+use loftsman::internals::exchange::{DxfVersion, read_table, sha256};
+use loftsman::internals::hull::{
+    FitMethod, Hull, HullMesh, LEAST_ANGLE, PanelMesh, PanelSettings, Solid, whole_volume,
+};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
+use loftsman::internals::report::{ExportFormat, ExportSettings, export, read_source, read_table_file};
 
 use crate::support::{carried, folder, program, stderr};
 

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use loftsman::fairing::outcome::Turns;
-use loftsman::hull::{Cut, Hull};
-use loftsman::report::{FairJob, FairOutputs, fair_outputs, fair_page, read_fair};
+use loftsman::internals::fairing::outcome::Turns;
+use loftsman::internals::hull::{Cut, Hull};
+use loftsman::internals::report::{FairJob, FairOutputs, fair_outputs, fair_page, read_fair};
 use serde_json::Value;
 
 use crate::random::Random;
@@ -184,7 +184,8 @@ fn targets_other_than_the_table_s_are_had_by_a_smooth_move() {
     let (_, outputs) = faired(&carried("configs/methods/series60-cb060.csv"), &options);
     outputs.verdict().unwrap();
     let outcome = &outputs.outcome;
-    let turns = |of: fn(&loftsman::fairing::outcome::Turns) -> usize| outcome.turns.iter().map(of).sum::<usize>();
+    let turns =
+        |of: fn(&loftsman::internals::fairing::outcome::Turns) -> usize| outcome.turns.iter().map(of).sum::<usize>();
     let (before, after) = (turns(|turns| turns.before), turns(|turns| turns.after));
     // 305 inflections and 8.5 times the energy where the readings stay where they are.
     assert!(after < before, "{before} > {after}");

@@ -1,6 +1,6 @@
 //! Fairing of single curves: known truth under noise, what is held exactly, what is refused with numbers, the command.
 
-use loftsman::fairing::curve::{
+use loftsman::internals::fairing::curve::{
     CurvePoint, CurveSettings, CurveSuspect, FairStatus, InflectionWish, LineKind, contradictions, fair_curve,
 };
 use rand::SeedableRng;
@@ -219,7 +219,7 @@ fn true_curvature_makes_a_round_end_round() {
     let with = fair_curve(&given, &CurveSettings::default()).unwrap();
     let without = fair_curve(&given, &CurveSettings { true_curvature: false, ..CurveSettings::default() }).unwrap();
     let errors = [&without, &with].map(|fair| error(|x| fair.curve.eval(x)[0], line, 0.0, 4.75));
-    let spread = |fair: &loftsman::fairing::curve::FairCurve| {
+    let spread = |fair: &loftsman::internals::fairing::curve::FairCurve| {
         fair.points.iter().map(|p| (p.curvature + 0.2).abs()).fold(0.0, f64::max)
     };
     println!(

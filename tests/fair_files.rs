@@ -4,8 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Stdio;
 
-use loftsman::exchange::read_table;
-use loftsman::report::{FairOutputs, fair_page, read_fair, read_source};
+use loftsman::internals::exchange::read_table;
+use loftsman::internals::report::{FairOutputs, fair_page, read_fair, read_source};
 
 use crate::fair::{TABLE, faired, file, number, wigley_table};
 use crate::support::{carried, command, folder, json, names_in, program, read_text, stderr, stdout};
@@ -84,7 +84,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     // Nobody stated the displacement: that of the hull that was written is within two standard errors of the field's.
     let written = read_source(&out.join("hull.json")).unwrap().hull;
     let held = &certificate["constraints"][0];
-    let volume = loftsman::hull::Functional::Volume.value(&written, written.reference_height());
+    let volume = loftsman::internals::hull::Functional::Volume.value(&written, written.reference_height());
     let [low, high] = ["low", "high"].map(|key| number(&held[key]));
     assert!((low..=high).contains(&volume) && low < number(&held["target"]), "{volume} {held}");
     assert!((5e-5..1e-3).contains(&(high / low - 1.0)) && number(&held["residual"]).abs() < 1e-12, "{held}");
@@ -185,7 +185,7 @@ fn unknown_offsets_are_predicted() {
 #[test]
 fn changes_list_every_offset_of_the_table() {
     let (job, outputs) = faired(&carried(TABLE), &[]);
-    let given = |cell: &&loftsman::hull::Cell| cell.value().is_some();
+    let given = |cell: &&loftsman::internals::hull::Cell| cell.value().is_some();
     let all = job.table.stations.iter().flat_map(|station| &station.half_breadths).filter(given).count();
     let changes = file(&outputs, "changes.csv");
     let not_used = changes.lines().filter(|row| row.ends_with(",not used")).count();

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use loftsman::plot::{GradePoint, grades_figure};
-use loftsman::report::read_source;
+use loftsman::internals::plot::{GradePoint, grades_figure};
+use loftsman::internals::report::read_source;
 
 use crate::support::{carried, folder, json, names_in, program, read_text, stderr, stdout, table_of};
 

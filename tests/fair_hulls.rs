@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use loftsman::fairing::outcome::Turns;
-use loftsman::fairing::strength::Fairness;
-use loftsman::qp::Status;
-use loftsman::report::{fair_page, fair_summary};
+use loftsman::internals::fairing::outcome::Turns;
+use loftsman::internals::fairing::strength::Fairness;
+use loftsman::internals::qp::Status;
+use loftsman::internals::report::{fair_page, fair_summary};
 use serde_json::Value;
 
 use crate::fair::{TABLE, YACHT, faired, file, number, wigley_table};

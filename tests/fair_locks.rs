@@ -1,11 +1,11 @@
 //! What is locked, suspected, weighed or out of reach on a net of its own.
 
-use loftsman::fairing::bends::Line;
-use loftsman::fairing::constraint::{FixedLine, Rule};
-use loftsman::fairing::job::{Job, Tolerance};
-use loftsman::fairing::outcome::Outcome;
-use loftsman::hull::{Cell, Cut, Entry, Hull, OffsetTable, StatedParticulars};
-use loftsman::qp::Status;
+use loftsman::internals::fairing::bends::Line;
+use loftsman::internals::fairing::constraint::{FixedLine, Rule};
+use loftsman::internals::fairing::job::{Job, Tolerance};
+use loftsman::internals::fairing::outcome::Outcome;
+use loftsman::internals::hull::{Cell, Cut, Entry, Hull, OffsetTable, StatedParticulars};
+use loftsman::internals::qp::Status;
 
 use crate::support::{carried, sampled, table_of, weyl_noise};
 

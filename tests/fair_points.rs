@@ -1,8 +1,8 @@
 //! Sections that are given as points.
 
-use loftsman::exchange::read_table;
-use loftsman::fairing::job::Job;
-use loftsman::hull::{Hull, Marks, OffsetTable, OutlinePoint, StationOffsets};
+use loftsman::internals::exchange::read_table;
+use loftsman::internals::fairing::job::Job;
+use loftsman::internals::hull::{Hull, Marks, OffsetTable, OutlinePoint, StationOffsets};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 

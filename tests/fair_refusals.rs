@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use loftsman::report::{fair_outputs, read_fair};
+use loftsman::internals::report::{fair_outputs, read_fair};
 
 use crate::fair::{TABLE, YACHT, answer_to_job};
 use crate::support::{carried, folder, program, stderr};

@@ -1,8 +1,8 @@
 //! Hulls whose keel line has rocker or rake: yachts, tugs, trawlers.
 
-use loftsman::fairing::job::Job;
-use loftsman::fairing::outcome::Change;
-use loftsman::hull::{Entry, OffsetTable};
+use loftsman::internals::fairing::job::Job;
+use loftsman::internals::fairing::outcome::Change;
+use loftsman::internals::hull::{Entry, OffsetTable};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 

@@ -1,16 +1,18 @@
 //! Rules of a fairing for single lines and regions: each is kept where it says so, and its price is told.
 
-use loftsman::fairing::bends::Line;
-use loftsman::fairing::constraint::{Constraint, FixedLine, Rule, TangentPlace};
-use loftsman::fairing::held::HeldRule;
-use loftsman::fairing::job::{Holding, Job, Tolerance};
-use loftsman::fairing::outcome::{Change, Outcome};
-use loftsman::fairing::proposals::Accepted;
-use loftsman::fairing::surface::with_half_breadths;
-use loftsman::fairing::{LineCourse, LineKind, ProposedLine};
-use loftsman::hull::{Cut, FitMethod, Hull, OffsetTable, transverse_inertia, transverse_inertia_gradient};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES, wetted_surface, wetted_surface_gradient};
-use loftsman::qp::Status;
+use loftsman::internals::fairing::bends::Line;
+use loftsman::internals::fairing::constraint::{Constraint, FixedLine, Rule, TangentPlace};
+use loftsman::internals::fairing::held::HeldRule;
+use loftsman::internals::fairing::job::{Holding, Job, Tolerance};
+use loftsman::internals::fairing::outcome::{Change, Outcome};
+use loftsman::internals::fairing::proposals::Accepted;
+use loftsman::internals::fairing::surface::with_half_breadths;
+use loftsman::internals::fairing::{LineCourse, LineKind, ProposedLine};
+use loftsman::internals::hull::{Cut, FitMethod, Hull, OffsetTable, transverse_inertia, transverse_inertia_gradient};
+use loftsman::internals::hydrostatics::{
+    Conventions, CurvesOfForm, QUANTITIES, wetted_surface, wetted_surface_gradient,
+};
+use loftsman::internals::qp::Status;
 
 use crate::support::{carried, sampled, table_of, weyl_noise};
 

@@ -3,11 +3,11 @@
 
 use std::fmt::Write;
 
-use loftsman::exchange::read_table;
-use loftsman::fairing::job::Job;
-use loftsman::fairing::outcome::Outcome;
-use loftsman::hull::Cut;
-use loftsman::qp::Status;
+use loftsman::internals::exchange::read_table;
+use loftsman::internals::fairing::job::Job;
+use loftsman::internals::fairing::outcome::Outcome;
+use loftsman::internals::hull::Cut;
+use loftsman::internals::qp::Status;
 
 use crate::random::Random;
 

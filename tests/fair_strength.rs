@@ -1,10 +1,10 @@
 //! The dial of fairness: from the surface through the table to the smoothest within its tolerances.
 
-use loftsman::fairing::job::Job;
-use loftsman::fairing::outcome::Outcome;
-use loftsman::fairing::strength::Fairness;
-use loftsman::hull::OffsetTable;
-use loftsman::qp::Status;
+use loftsman::internals::fairing::job::Job;
+use loftsman::internals::fairing::outcome::Outcome;
+use loftsman::internals::fairing::strength::Fairness;
+use loftsman::internals::hull::OffsetTable;
+use loftsman::internals::qp::Status;
 
 use crate::support::{carried, folder, json, program, read_text, stderr, stdout, table_of};
 

@@ -1,9 +1,9 @@
 //! The hull families against what was asked of them and against published tables.
 
-use loftsman::hull::{Functional, Hull};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
-use loftsman::parametric::{Generated, Infeasible, ShipType, ValueOrigin, analytic, ucl_cosh};
+use loftsman::internals::hull::{Functional, Hull};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
+use loftsman::internals::parametric::cosh::{self, DesignTargets, MidshipTarget};
+use loftsman::internals::parametric::{Generated, Infeasible, ShipType, ValueOrigin, analytic, ucl_cosh};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 

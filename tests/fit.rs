@@ -3,8 +3,8 @@
 //! Published hulls outside the repository are read from the folder that LOFTSMAN_DATA names, or `../shared/data`; where
 //! there is none, these tests say so and pass.
 
-use loftsman::exchange::read_table;
-use loftsman::hull::{Cell, FitMethod, Fitted, Functional, Hull, OffsetTable, StationOffsets};
+use loftsman::internals::exchange::read_table;
+use loftsman::internals::hull::{Cell, FitMethod, Fitted, Functional, Hull, OffsetTable, StationOffsets};
 use proptest::prelude::*;
 
 use crate::support::{carried, shared_folder};

@@ -1,7 +1,7 @@
 //! What tables say besides half-breadths: transom plane, flat of side, tangent lines, level knuckles, heights at
 //! buttocks, camber.
 
-use loftsman::hull::{
+use loftsman::internals::hull::{
     Cell, Chart, FeatureLine, FitMethod, Fitted, Functional, Hull, LineKind, OffsetTable, StationOffsets, TransomPlane,
 };
 use proptest::prelude::*;

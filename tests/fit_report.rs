@@ -1,7 +1,7 @@
 //! What `fit` and `check` tell beside the hull: points of sections, suspects, estimates, a surface that leaves its data.
 
-use loftsman::hull::{FitMethod, Hull, Thinned, VolumeEstimate};
-use loftsman::report::{
+use loftsman::internals::hull::{FitMethod, Hull, Thinned, VolumeEstimate};
+use loftsman::internals::report::{
     FitJob, FitOutputs, check_json, check_page, check_table, fit_outputs, fit_page, read_fit, read_table_file,
 };
 

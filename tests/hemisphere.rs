@@ -13,7 +13,7 @@
 //! 7. Found for the Gaussian curvature, up to 0.9 of the altitude: 1.6e-2, 3.7e-5 and 1.4e-7 of 1/36, that is 4.4e-4,
 //! 1.03e-6 and 3.9e-9. A periodic cubic cannot come within 1e-6 of 1/36 from these data; degree 7 does, 250 times over.
 
-use loftsman::spline::{BsplineSurface, KnotVector, Parametrization, PeriodicCollocation};
+use loftsman::internals::spline::{BsplineSurface, KnotVector, Parametrization, PeriodicCollocation};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const RADIUS: f64 = 6.0;

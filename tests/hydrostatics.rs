@@ -1,11 +1,11 @@
 //! Tables of hydrostatics of hulls whose lines in u slant: generated ships against identities, sheared bodies against
 //! closed forms and against section areas taken one by one.
 
-use loftsman::hull::{Functional, Hull, PrincipalParticulars, SectionalAreaCurve};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES};
-use loftsman::parametric::ShipType;
-use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
-use loftsman::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
+use loftsman::internals::hull::{Functional, Hull, PrincipalParticulars, SectionalAreaCurve};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES};
+use loftsman::internals::parametric::ShipType;
+use loftsman::internals::parametric::cosh::{self, DesignTargets, MidshipTarget};
+use loftsman::internals::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
 
 fn ships() -> Vec<(&'static str, Hull)> {
     let base = |ship, length| DesignTargets { ship_type: Some(ship), length, ..DesignTargets::default() };

@@ -1,6 +1,6 @@
 //! The least number of inflections: known truth under noise, proofs checked by hand, agreement with trying every pattern.
 
-use loftsman::fairing::inflections::{Bands, BandsError, Bend, Inflections, minimum_inflections};
+use loftsman::internals::fairing::inflections::{Bands, BandsError, Bend, Inflections, minimum_inflections};
 use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

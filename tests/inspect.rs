@@ -2,13 +2,13 @@
 
 use std::f64::consts::PI;
 
-use loftsman::fairing::inspect::{
+use loftsman::internals::fairing::inspect::{
     Counts, Findings, Inspection, Local, Planes, Profile, Resolution, SurfaceMap, gaussian_regions, kind,
 };
-use loftsman::hull::{Cut, Hull, PrincipalParticulars};
-use loftsman::parametric::analytic::{self, Dimensions};
-use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
-use loftsman::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
+use loftsman::internals::hull::{Cut, Hull, PrincipalParticulars};
+use loftsman::internals::parametric::analytic::{self, Dimensions};
+use loftsman::internals::parametric::cosh::{self, DesignTargets, MidshipTarget};
+use loftsman::internals::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
 use proptest::prelude::*;
 
 use crate::support::carried;
@@ -292,7 +292,7 @@ fn dimensions(length: f64, breadth: f64, draught: f64) -> Dimensions {
 fn at<'a>(
     inspection: &'a Inspection,
     word: &'a str,
-) -> impl Iterator<Item = &'a loftsman::fairing::inspect::CurveReport> {
+) -> impl Iterator<Item = &'a loftsman::internals::fairing::inspect::CurveReport> {
     inspection.curves.iter().filter(move |curve| kind(&curve.cut) == word)
 }
 
@@ -444,7 +444,7 @@ fn hollow_waterlines_turn_where_the_cosine_does() {
 #[test]
 fn a_bulk_carrier_has_flat_sides_and_few_inflections() {
     let requested = DesignTargets {
-        ship_type: Some(loftsman::parametric::ShipType::BulkCarrier),
+        ship_type: Some(loftsman::internals::parametric::ShipType::BulkCarrier),
         length: 217.0,
         breadth: Some(32.25),
         draught: Some(12.2),
@@ -486,7 +486,7 @@ fn what_has_no_breadth_is_not_counted() {
     assert!(inspection.curves.iter().all(|curve| curve.without_breadth.abs() < 1e-12), "fine ends stay");
     // The end station of this table lies on the centreplane up to 6.5 m.
     let table = carried("tests/data/series60_cb060/offsets.csv");
-    let hull = loftsman::report::read_source(&table).unwrap().hull;
+    let hull = loftsman::internals::report::read_source(&table).unwrap().hull;
     let planes = Planes { stations: vec![121.92], waterlines: vec![2.0, 4.0], ..Planes::default() };
     let inspection = Inspection::new(&hull, &planes, 5e-3);
     let end = at(&inspection, "station").next().expect("the part above has breadth");
@@ -498,12 +498,16 @@ fn what_has_no_breadth_is_not_counted() {
 /// outward.
 #[test]
 fn a_parabola_has_its_curvature_outward() {
-    let dimensions =
-        loftsman::parametric::analytic::Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 6.25 };
-    let hull = loftsman::parametric::analytic::wigley("Wigley", &dimensions).unwrap().hull;
-    let found = loftsman::fairing::inspect::combs(
+    let dimensions = loftsman::internals::parametric::analytic::Dimensions {
+        length: 100.0,
+        breadth: 10.0,
+        draught: 6.25,
+        depth: 6.25,
+    };
+    let hull = loftsman::internals::parametric::analytic::wigley("Wigley", &dimensions).unwrap().hull;
+    let found = loftsman::internals::fairing::inspect::combs(
         &hull,
-        &[loftsman::hull::Cut::Waterline { z: 6.25 }, loftsman::hull::Cut::Station { x: 50.0 }],
+        &[loftsman::internals::hull::Cut::Waterline { z: 6.25 }, loftsman::internals::hull::Cut::Station { x: 50.0 }],
         41,
         1e-3,
     );

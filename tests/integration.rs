@@ -49,6 +49,7 @@ mod machines;
 mod mesh_formats;
 mod methods;
 mod partners;
+mod public;
 mod qp;
 mod qp_problems;
 mod random;

@@ -2,14 +2,16 @@
 
 use std::fs;
 
-use loftsman::hull::{Hull, StationNumbers, default_stations};
-use loftsman::parametric::analytic::{Dimensions, ellipsoid, rectangular_box, wigley};
+use loftsman::internals::hull::{Hull, StationNumbers, default_stations};
+use loftsman::internals::parametric::analytic::{Dimensions, ellipsoid, rectangular_box, wigley};
 
 use crate::support::{carried, folder, program, stderr, stdout};
 
 const THICKNESS: f64 = 0.05;
 
-fn hull(generated: Result<loftsman::parametric::Generated, Vec<loftsman::parametric::Infeasible>>) -> Hull {
+fn hull(
+    generated: Result<loftsman::internals::parametric::Generated, Vec<loftsman::internals::parametric::Infeasible>>,
+) -> Hull {
     generated.unwrap_or_else(|_| panic!("infeasible")).hull
 }
 
@@ -102,7 +104,7 @@ fn the_command_writes_drawings_and_ordinates() {
 fn moulded_frames_of_all_presets_are_their_sections() {
     for preset in ["bulk-carrier", "container-ship", "fishing-vessel", "frigate", "tug", "yacht"] {
         let path = carried("configs").join(format!("{preset}.toml"));
-        let ship = loftsman::report::read_source(&path).unwrap().hull;
+        let ship = loftsman::internals::report::read_source(&path).unwrap().hull;
         for station in default_stations(&ship, StationNumbers::default()) {
             let Some(frame) = ship.lofted_frame(station.x, 0.0, 1e-4) else { continue };
             let heights: Vec<f64> = (0..60).map(|k| f64::from(k) / 60.0 * ship.deck_height(station.x)).collect();
@@ -118,7 +120,7 @@ fn moulded_frames_of_all_presets_are_their_sections() {
 
 #[test]
 fn a_frame_inside_is_nowhere_nearer_to_the_skin_than_its_thickness() {
-    let ship = loftsman::report::read_source(&carried("configs/tug.toml")).unwrap().hull;
+    let ship = loftsman::internals::report::read_source(&carried("configs/tug.toml")).unwrap().hull;
     let thickness = 0.3;
     for x in [3.0, 10.0, 20.0, 24.0, 26.0, 27.5, 28.0] {
         let Some(frame) = ship.lofted_frame(x, -thickness, 1e-3) else { continue };

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::{Output, Stdio};
 
-use loftsman::report::{Destination, Inputs, OutputFile};
+use loftsman::internals::report::{Destination, Inputs, OutputFile};
 use serde_json::Value;
 
 use crate::cli::{config, table, wigley};

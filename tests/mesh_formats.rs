@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use loftsman::exchange::{ReadBody, TableProblem, read_body};
+use loftsman::internals::exchange::{ReadBody, TableProblem, read_body};
 
 use crate::support::{carried, folder, program, stderr, stdout};
 

@@ -4,13 +4,13 @@
 use std::fs;
 use std::path::PathBuf;
 
-use loftsman::hull::{
+use loftsman::internals::hull::{
     Cell, Entry, FitError, FitMethod, Fitted, Hull, LeastSquares, NetKnots, OffsetStation, OffsetTable,
     ParametricStations, QuadraticNet, StationOffsets, UniformBicubic,
 };
-use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::report::{fit_outputs, read_fit};
-use loftsman::spline::{BsplineSurface, Parametrization};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
+use loftsman::internals::report::{fit_outputs, read_fit};
+use loftsman::internals::spline::{BsplineSurface, Parametrization};
 
 use crate::support::{carried, folder, json, names_in, program, read_text, stderr, stdout};
 

@@ -1,6 +1,6 @@
 //! The structured interior point against closed forms, its own conditions of optimality, Clarabel and the certificates.
 
-use loftsman::qp::{Problem, ProblemError, Settings, Solution, Solver, SparseRows, Status};
+use loftsman::internals::qp::{Problem, ProblemError, Settings, Solution, Solver, SparseRows, Status};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

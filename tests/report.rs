@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use loftsman::plot::Sheet;
-use loftsman::report::{
+use loftsman::internals::plot::Sheet;
+use loftsman::internals::report::{
     Destination, OutputFile, ReportSettings, fair_outputs, generate_outputs, read_design, read_fair, read_result,
     report_outputs,
 };
@@ -18,7 +18,7 @@ pub(crate) const SETTINGS: ReportSettings =
     ReportSettings { dots_per_inch: 24.0, sheet: Sheet::A3, combs: String::new(), date: None };
 
 pub(crate) fn write(folder: &Path, files: &[OutputFile]) {
-    Destination { folder, inputs: &loftsman::report::Inputs::default(), force: true }.write(files).unwrap();
+    Destination { folder, inputs: &loftsman::internals::report::Inputs::default(), force: true }.write(files).unwrap();
 }
 
 /// A generated hull in a folder of its own.

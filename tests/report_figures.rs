@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use loftsman::plot::Sheet;
-use loftsman::report::{ReportSettings, generate_outputs, read_design, read_result, report_outputs};
+use loftsman::internals::plot::Sheet;
+use loftsman::internals::report::{ReportSettings, generate_outputs, read_design, read_result, report_outputs};
 use resvg::tiny_skia::Pixmap;
 
 use crate::report::{FAIRED, HULL, SETTINGS, faired, generated, text};

@@ -1,7 +1,7 @@
 //! Plane sections against closed forms, and their connection against brute-force root counts.
 
-use loftsman::hull::{Branch, Cut, Face, Hull, PrincipalParticulars, Section};
-use loftsman::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
+use loftsman::internals::hull::{Branch, Cut, Face, Hull, PrincipalParticulars, Section};
+use loftsman::internals::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
 
 const LENGTH: f64 = 100.0;
 const BREADTH: f64 = 10.0;

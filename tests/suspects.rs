@@ -20,9 +20,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use loftsman::fairing::{Hypothesis, Suspects, suspects};
-use loftsman::hull::{Cell, Entry, Marks, OffsetTable, Written};
-use loftsman::units::Notation;
+use loftsman::internals::fairing::{Hypothesis, Suspects, suspects};
+use loftsman::internals::hull::{Cell, Entry, Marks, OffsetTable, Written};
+use loftsman::internals::units::Notation;
 
 use crate::random::Random;
 use crate::support::{carried, folder, read_text, shared_folder, table_of};
@@ -513,11 +513,15 @@ fn example(folder: &Path) {
     let source = read_text(carried("tests/data/series60_cb060/offsets.csv"));
     let wrong = source.replacen("6.7788", "6.7738", 1).replacen("5.1159", "5.1519", 1).replacen("7.1852", "1.7852", 1);
     std::fs::write(folder.join("series60-misprinted.csv"), &wrong).unwrap();
-    let check = loftsman::report::check_table(&folder.join("series60-misprinted.csv")).unwrap();
-    let files = loftsman::report::check_files(&check, true).unwrap();
-    loftsman::report::Destination { folder, inputs: &loftsman::report::Inputs::default(), force: true }
-        .write(&files)
-        .unwrap();
+    let check = loftsman::internals::report::check_table(&folder.join("series60-misprinted.csv")).unwrap();
+    let files = loftsman::internals::report::check_files(&check, true).unwrap();
+    loftsman::internals::report::Destination {
+        folder,
+        inputs: &loftsman::internals::report::Inputs::default(),
+        force: true,
+    }
+    .write(&files)
+    .unwrap();
 }
 
 #[test]
@@ -527,18 +531,18 @@ fn accepting_changes_the_named_cells_and_nothing_else() {
     let wrong = source.replacen("7.1852", "1.7852", 1).replacen("5.1159", "5.1519", 1);
     let path = folder.join("table.csv");
     std::fs::write(&path, &wrong).unwrap();
-    let check = loftsman::report::check_table(&path).unwrap();
+    let check = loftsman::internals::report::check_table(&path).unwrap();
     let list = &check.suspects.as_ref().unwrap().suspects;
     let first = &list[0];
     assert_eq!((first.written.as_str(), first.proposed_text.as_str()), ("1.7852", "7.1852"));
     assert_eq!(first.hypothesis(), Hypothesis::DigitsSwapped);
-    let accepted = loftsman::report::accept(&check, &["S1".to_owned()]).unwrap();
+    let accepted = loftsman::internals::report::accept(&check, &["S1".to_owned()]).unwrap();
     assert_eq!(accepted.text, wrong.replacen("1.7852", "7.1852", 1));
     assert_eq!(accepted.changes.len(), 1);
     assert!(accepted.changes[0].contains("1.7852 becomes 7.1852"), "{:?}", accepted.changes);
-    let unknown = loftsman::report::accept(&check, &["S99".to_owned()]).unwrap_err().to_string();
+    let unknown = loftsman::internals::report::accept(&check, &["S99".to_owned()]).unwrap_err().to_string();
     assert!(unknown.contains("E203 no suspect is called S99: there are S1"), "{unknown}");
-    let json = loftsman::report::check_json(&check);
+    let json = loftsman::internals::report::check_json(&check);
     assert_eq!(json["suspects"][0]["written"], "1.7852");
     assert_eq!(json["suspects"][0]["row"], first_row(&wrong, "1.7852"));
     assert!(json["noise"]["sigma"].as_f64().unwrap() > 0.0 && json["lines"].as_array().unwrap().is_empty());

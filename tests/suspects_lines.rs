@@ -1,8 +1,8 @@
 //! Knuckles and tangent lines that `check` proposes where a table does not declare them.
 
-use loftsman::exchange::read_table;
-use loftsman::fairing::{LineCourse, LineKind, ProposedLine, proposed_lines, suspects};
-use loftsman::hull::OffsetTable;
+use loftsman::internals::exchange::read_table;
+use loftsman::internals::fairing::{LineCourse, LineKind, ProposedLine, proposed_lines, suspects};
+use loftsman::internals::hull::OffsetTable;
 
 use crate::random::Random;
 use crate::support::{carried, folder, sampled, table_of};
@@ -94,12 +94,12 @@ fn proposed_lines_are_printed_and_written() {
     }
     let folder = folder("printed");
     folder.write("lines.csv", text + "\n");
-    let check = loftsman::report::check_table(&folder.join("lines.csv")).unwrap();
-    let json = loftsman::report::check_json(&check);
+    let check = loftsman::internals::report::check_table(&folder.join("lines.csv")).unwrap();
+    let json = loftsman::internals::report::check_json(&check);
     let line = &json["lines"][0];
     assert_eq!((line["kind"].as_str(), line["course"].as_str()), (Some("knuckle"), Some("waterline")), "{json}");
     assert!(line["at"] == 4.0 && line["from"] == 0.0 && line["to"] == 55.0 && line["gain"].as_f64().unwrap() > 5.0);
-    let page = loftsman::report::check_page(&check);
+    let page = loftsman::internals::report::check_page(&check);
     assert!(page.contains("knuckle along the waterline at 4.000 m, from 0.000 to 55.000 m"), "{page}");
     assert!(check.verdict(&[]).is_ok(), "a line that may be declared is no error");
 }

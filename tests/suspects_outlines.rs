@@ -5,11 +5,11 @@
 //! true neighbours; what moves it less, or along the section, changes no section. Tables that must not be carried are
 //! read from the folder LOFTSMAN_DATA (or ../shared/data) and said to be skipped when it is absent.
 
-use loftsman::exchange::{TableWriting, read_table, write_table};
-use loftsman::fairing::{PointNumber, height_suspects, point_suspects};
-use loftsman::hull::{Entry, OffsetStation, OffsetTable};
-use loftsman::parametric::analytic::{Dimensions, wigley};
-use loftsman::report::{accept, check_json, check_page, check_table, read_table_file};
+use loftsman::internals::exchange::{TableWriting, read_table, write_table};
+use loftsman::internals::fairing::{PointNumber, height_suspects, point_suspects};
+use loftsman::internals::hull::{Entry, OffsetStation, OffsetTable};
+use loftsman::internals::parametric::analytic::{Dimensions, wigley};
+use loftsman::internals::report::{accept, check_json, check_page, check_table, read_table_file};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 

@@ -1,6 +1,6 @@
 //! Every message about a table of offsets, provoked.
 
-use loftsman::exchange::{MOST_COLUMNS, Severity, TableProblem, read_table, read_table_with};
+use loftsman::internals::exchange::{MOST_COLUMNS, Severity, TableProblem, read_table, read_table_with};
 
 use std::fs;
 

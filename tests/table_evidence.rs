@@ -3,9 +3,9 @@
 
 use std::fmt::Write as _;
 
-use loftsman::exchange::{ReadTable, Severity, TableProblem, read_table_with};
-use loftsman::hull::OffsetTable;
-use loftsman::report::read_hydrostatic_body;
+use loftsman::internals::exchange::{ReadTable, Severity, TableProblem, read_table_with};
+use loftsman::internals::hull::OffsetTable;
+use loftsman::internals::report::read_hydrostatic_body;
 
 use crate::support::folder;
 
@@ -257,7 +257,8 @@ fn volume(name: &str, text: &str, draught: f64) -> (f64, Vec<String>) {
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
     std::fs::write(&path, text).unwrap();
     let body = read_hydrostatic_body(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let (curves, _) = body.curves_of_form(&[draught], &loftsman::hydrostatics::Conventions::default()).unwrap();
+    let (curves, _) =
+        body.curves_of_form(&[draught], &loftsman::internals::hydrostatics::Conventions::default()).unwrap();
     (curves.rows[0].displacement_volume, body.notes)
 }
 
@@ -404,7 +405,7 @@ fn boats_of_other_writings() {
         if eighth == 0 { format!("{feet}-{inch}") } else { format!("{feet}-{inch} {eighth}/8") }
     };
     let text = boat_text(&boat(|_, _, value| inches((96.0 * value).round() / 96.0)));
-    let found = loftsman::exchange::read_table("boat.csv", text.as_bytes())
+    let found = loftsman::internals::exchange::read_table("boat.csv", text.as_bytes())
         .unwrap_or_else(|list| panic!("{}\n{text}", list[0]));
     assert_eq!(found.table.stations.len(), 9);
 }
@@ -566,7 +567,7 @@ fn points_may_be_in_feet_inches_and_eighths_and_have_marks() {
         }
         read(&text, "[table]\nunits = \"m\"\n").unwrap_or_else(|list| panic!("{}", list[0])).table
     };
-    let feet = |length: f64| loftsman::units::Notation::FeetInchesEighths.write(length);
+    let feet = |length: f64| loftsman::internals::units::Notation::FeetInchesEighths.write(length);
     let (metric, imperial) = (of(&metres, "K"), of(&feet, ""));
     assert_eq!(metric.stations.len(), imperial.stations.len());
     for (a, b) in metric.stations.iter().zip(&imperial.stations) {

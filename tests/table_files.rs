@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use loftsman::exchange::{Severity, TableWriting, read_table, write_table};
-use loftsman::hull::{Cell, TableLayout};
-use loftsman::units::Notation;
+use loftsman::internals::exchange::{Severity, TableWriting, read_table, write_table};
+use loftsman::internals::hull::{Cell, TableLayout};
+use loftsman::internals::units::Notation;
 
 use crate::support::{carried, convert, folder, program, read_text, stderr, stdout};
 
@@ -214,17 +214,17 @@ fn workbooks_are_written_back() {
     assert_eq!(first.stated.draught, Some(0.8));
     assert_eq!(first.form.sheet.as_deref(), Some("Offsets"));
     let written = write_table(&first, TableWriting::default());
-    let bytes = loftsman::exchange::workbook(&written.text, &first.form).unwrap();
+    let bytes = loftsman::internals::exchange::workbook(&written.text, &first.form).unwrap();
     let again = read_table("u.xlsx", &bytes).unwrap().table;
     assert_eq!(again, first);
-    assert_eq!(loftsman::exchange::workbook(&written.text, &again.form).unwrap(), bytes);
+    assert_eq!(loftsman::internals::exchange::workbook(&written.text, &again.form).unwrap(), bytes);
     // Every real table of the repository, and a sheet that stands for none.
     for name in ["wigley", "series60_cb060", "s175"] {
         let path = carried("tests/data").join(name).join("offsets.csv");
         let Ok(text) = std::fs::read(&path) else { panic!("no {}", path.display()) };
         let csv = read_table("offsets.csv", &text).unwrap().table;
         let written = write_table(&csv, TableWriting::default());
-        let bytes = loftsman::exchange::workbook(&written.text, &csv.form).unwrap();
+        let bytes = loftsman::internals::exchange::workbook(&written.text, &csv.form).unwrap();
         let back = read_table("offsets.xlsx", &bytes).unwrap().table;
         assert_eq!((&back.waterlines, &back.buttocks), (&csv.waterlines, &csv.buttocks), "{name}");
         for (a, b) in back.stations.iter().zip(&csv.stations) {
@@ -234,5 +234,5 @@ fn workbooks_are_written_back() {
     }
     let mut form = first.form.clone();
     form.sheet = Some("a/b".to_owned());
-    assert!(loftsman::exchange::workbook(&written.text, &form).unwrap_err().contains("a/b"));
+    assert!(loftsman::internals::exchange::workbook(&written.text, &form).unwrap_err().contains("a/b"));
 }

@@ -4,10 +4,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use loftsman::exchange::{Severity, read_table, read_table_with};
-use loftsman::hull::{Cell, OffsetTable, SectionalAreaCurve};
-use loftsman::hydrostatics::Conventions;
-use loftsman::report::read_hydrostatic_body;
+use loftsman::internals::exchange::{Severity, read_table, read_table_with};
+use loftsman::internals::hull::{Cell, OffsetTable, SectionalAreaCurve};
+use loftsman::internals::hydrostatics::Conventions;
+use loftsman::internals::report::read_hydrostatic_body;
 
 use crate::support::{among, carried, folder, read_text};
 

@@ -1,11 +1,11 @@
 //! Reading of tables of offsets: published tables as they are, our own tables, random bytes.
 
-use loftsman::exchange::{
+use loftsman::internals::exchange::{
     ReadTable, Severity, TableWriting, heights_csv, offsets_csv, read_table, read_table_with, write_table,
 };
-use loftsman::hull::{Cell, Entry, Marks, OffsetTable, StationOffsets, TableLayout};
-use loftsman::parametric::analytic::{self, Dimensions};
-use loftsman::units::Notation;
+use loftsman::internals::hull::{Cell, Entry, Marks, OffsetTable, StationOffsets, TableLayout};
+use loftsman::internals::parametric::analytic::{self, Dimensions};
+use loftsman::internals::units::Notation;
 use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -3,12 +3,12 @@
 
 use std::fs;
 
-use loftsman::exchange::{
+use loftsman::internals::exchange::{
     Severity, TableProblem, TableWriting, read_table, read_table_with, write_britfair, write_freeship, write_ghs,
     write_pdstrip, write_pias, write_table,
 };
-use loftsman::hull::{OffsetTable, OutlinePoint, StationOffsets, TableLayout};
-use loftsman::units::Notation;
+use loftsman::internals::hull::{OffsetTable, OutlinePoint, StationOffsets, TableLayout};
+use loftsman::internals::units::Notation;
 
 use crate::support::{among, carried, convert, folder, notes, program, read, read_text, stderr, stdout};
 

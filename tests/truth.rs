@@ -6,10 +6,10 @@ use crate::random::Random;
 use crate::support::carried;
 use crate::truth_hulls::measure::{Summary, page};
 use crate::truth_hulls::{Case, Errors, LARGE, ROUGH, SIX_SIGMA, SMALL, cases, middle_body, s_shaped, wigley};
-use loftsman::fairing::LineCourse;
-use loftsman::fairing::job::Job;
-use loftsman::fairing::strength::Fairness;
-use loftsman::hull::Entry;
+use loftsman::internals::fairing::LineCourse;
+use loftsman::internals::fairing::job::Job;
+use loftsman::internals::fairing::strength::Fairness;
+use loftsman::internals::hull::Entry;
 
 const SEEDS: u64 = 3;
 

@@ -7,8 +7,8 @@
 
 use std::fs;
 
-use loftsman::fairing::job::Job;
-use loftsman::hull::OffsetTable;
+use loftsman::internals::fairing::job::Job;
+use loftsman::internals::hull::OffsetTable;
 
 use crate::partners::{self, Table, lines};
 use crate::support::{carried, read_text, table_of};

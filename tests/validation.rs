@@ -1,6 +1,6 @@
 //! Fitted tables against published figures: the tables carried here always, others when they are at hand.
 
-use loftsman::report::{Case, Verdict, validate};
+use loftsman::internals::report::{Case, Verdict, validate};
 
 use crate::support::{carried, shared_folder};
 

@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use loftsman::exchange::{read_body, read_subdivision, write_ftm};
+use loftsman::internals::exchange::{read_body, read_subdivision, write_ftm};
 
 const NAMES: [&str; 20] = [
     "a.stl", "a.obj", "a.igs", "a.step", "a.fbm", "a.ftm", "a.glb", "a.gdf", "a.pnl", "a.mar", "a.ply", "a.off", "a.vtk",

@@ -2,8 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use loftsman::exchange::{read_curve, read_fairing};
-use loftsman::units::Notation;
+use loftsman::internals::exchange::{read_curve, read_fairing};
+use loftsman::internals::units::Notation;
 
 fuzz_target!(|text: &str| {
     let _ = read_curve(text, Notation::Metres);

@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use loftsman::{config, units};
+use loftsman::internals::{config, units};
 
 fuzz_target!(|text: &str| {
     let _ = config::read("hull.toml", text);

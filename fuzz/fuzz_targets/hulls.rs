@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use loftsman::exchange::{read_hgf, read_hull};
+use loftsman::internals::exchange::{read_hgf, read_hull};
 
 fuzz_target!(|text: &str| {
     let _ = read_hull(text);

@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use loftsman::exchange::{read_table, write_britfair, write_freeship, write_ghs, write_pdstrip, write_pias};
+use loftsman::internals::exchange::{read_table, write_britfair, write_freeship, write_ghs, write_pdstrip, write_pias};
 
 const NAMES: [&str; 9] = ["a.csv", "a.gf", "a.bri", "a.txt", "a.xlsx", "in.mlt", "a.seaway", "a.igs", "a.dxf"];
 

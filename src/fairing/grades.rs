@@ -42,6 +42,7 @@ impl Job {
     ///
     /// # Errors
     /// As [`Job::run`].
+    #[doc(hidden)]
     pub fn run_grades(
         &self,
         table: &OffsetTable,

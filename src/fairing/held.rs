@@ -36,7 +36,7 @@ pub struct Held {
 const HAD: f64 = 1e-9;
 
 impl Held {
-    /// Whether its target is had, within its band.
+    /// Whether its target is met, within its band.
     #[must_use]
     pub fn is_had(&self) -> bool {
         self.missed().abs() <= HAD * self.constraint.target().abs()

@@ -139,7 +139,7 @@ pub struct Tolerance {
     pub cells: Vec<(usize, usize, f64)>,
 }
 
-/// What is wished.
+/// How a table is faired: grade, targets, tolerances and locks. [`Job::run`] does it.
 #[derive(Debug, Clone)]
 pub struct Job {
     /// How strongly the table is faired.
@@ -149,10 +149,13 @@ pub struct Job {
     /// What is held.
     pub holding: Holding,
     /// Rules for lines and regions.
+    #[doc(hidden)]
     pub rules: Vec<Rule>,
     /// Which of the lines that are proposed are taken.
+    #[doc(hidden)]
     pub accepted: Accepted,
     /// Lines across which slope or curvature break, that the table does not declare.
+    #[doc(hidden)]
     pub lines: Vec<ProposedLine>,
     /// Tolerances.
     pub tolerance: Tolerance,
@@ -168,6 +171,7 @@ pub struct Job {
     /// Dearest change of curvature that is forbidden, in squares of the noise; none: by the grade and what it comes to.
     pub price: Option<f64>,
     /// The solver.
+    #[doc(hidden)]
     pub solver: Settings,
 }
 
@@ -213,6 +217,7 @@ pub enum JobError {
     Hull(#[from] HullError),
     /// The offsets make no problem.
     #[error(transparent)]
+    #[doc(hidden)]
     Fair(#[from] FairError),
     /// The draught lies above the hull.
     #[error(
@@ -261,6 +266,7 @@ pub enum JobError {
     },
     /// A line is declared along which the surface cannot break.
     #[error("the {} at {at} m cannot be a {}: the surface through the table has no line of its net there", course.as_str(), kind.as_str())]
+    #[doc(hidden)]
     NoCourse {
         /// Which way it runs.
         course: LineCourse,
@@ -271,6 +277,7 @@ pub enum JobError {
     },
     /// A line is accepted that is not proposed.
     #[error("L{number} is not proposed: {}", match count { 0 => "no line is".to_owned(), 1 => "there is L1".to_owned(), n => format!("there are L1 to L{n}") })]
+    #[doc(hidden)]
     NoLine {
         /// Its number.
         number: usize,

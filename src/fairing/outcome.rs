@@ -106,18 +106,22 @@ pub struct Outcome {
     /// Constraints.
     pub held: Vec<Held>,
     /// Rules for lines and regions.
+    #[doc(hidden)]
     pub rules: Vec<HeldRule>,
     /// Regions of one sign of Gaussian curvature before and after.
     pub regions: [usize; 2],
     /// Curves of the table's stations and waterlines, of buttocks and of diagonals, which were never used.
     pub turns: Vec<Turns>,
     /// Knuckles and tangent lines that the table has and does not declare.
+    #[doc(hidden)]
     pub proposals: Vec<Proposal>,
     /// Signs of the control polygons of the nets before and after.
+    #[doc(hidden)]
     pub signs: [Vec<PolygonSigns>; 2],
     /// Suspects of the table.
     pub suspects: Vec<Suspect>,
     /// The program, its certificate, its noise level and its pattern.
+    #[doc(hidden)]
     pub faired: Faired,
     /// How strongly the table was faired.
     pub fairness: Fairness,
@@ -135,11 +139,12 @@ pub struct Outcome {
     /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
     pub table_noise: f64,
     /// What offsets of a line were found to be off by together.
+    #[doc(hidden)]
     pub line_errors: Option<FoundErrors>,
     /// Departure of a bend from its chord below which it is no inflection \[m\]: the rounding of the table, or a tenth of
     /// its noise.
     pub resolution: f64,
-    /// Whether targets that cannot be met within the tolerances gave way to the nearest that can.
+    /// Whether targets that cannot be met within the tolerances were replaced by the nearest that can.
     pub nearest: bool,
     /// What the job came to in words, and then what the surface through the table had to assume.
     pub notes: Vec<String>,

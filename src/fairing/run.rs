@@ -65,6 +65,7 @@ impl Job {
     ///
     /// # Errors
     /// As [`Job::run`].
+    #[doc(hidden)]
     pub fn run_telling(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
         let raw = self.fairness.is_raw().then(|| self.through());
         let job = raw.as_ref().unwrap_or(self);

@@ -82,6 +82,7 @@ impl Fairness {
 
     /// When inflections are few; none below the default.
     #[must_use]
+    #[doc(hidden)]
     pub fn few(self) -> Option<Few> {
         let dearer = 10f64.powf(PRICE * (self.0 - Self::default().0));
         self.near_least().map(|near_least| Few { near_least, dearer })

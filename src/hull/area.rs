@@ -76,7 +76,7 @@ impl SectionalAreaCurve {
     /// within a sixteenth of a tolerance on a quarter of the length, a fourth power on half of it.
     ///
     /// ```
-    /// use loftsman::hull::SectionalAreaCurve;
+    /// use loftsman::geometry::SectionalAreaCurve;
     /// let stations: Vec<f64> = (0..=100).map(f64::from).collect();
     /// let of = |area: fn(f64) -> f64| {
     ///     let areas = stations.iter().map(|x| area(*x)).collect();

@@ -47,6 +47,7 @@ pub struct Cell {
     /// Its marks.
     pub marks: Marks,
     /// How it was written; none when it was computed.
+    #[doc(hidden)]
     pub written: Option<Written>,
 }
 

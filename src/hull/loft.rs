@@ -379,6 +379,7 @@ impl Hull {
     /// The frame at `x` \[m\] forward of AP, up to the deck at side, of the surface `offset` \[m\] outward of the moulded one
     /// (negative: inward). Chords are within `deviation` \[m\] of it. None where that surface does not reach.
     #[must_use]
+    #[doc(hidden)]
     pub fn lofted_frame(&self, x: f64, offset: f64, deviation: f64) -> Option<LoftedFrame> {
         let lofting = Lofting { hull: self, x, offset, deviation };
         let (least, reach) = (LEAST * self.particulars().breadth, 1e-6 + PRODUCED * offset.abs());

@@ -99,6 +99,7 @@ pub struct HullMesh {
     /// Triangles as indices of vertices, by region in the order of [`Region::ALL`].
     pub triangles: Vec<(Region, [usize; 3])>,
     /// Corners of the body at which a triangle has an angle of less than [`LEAST_ANGLE`].
+    #[doc(hidden)]
     pub sharp_corners: Vec<SharpCorner>,
 }
 
@@ -247,6 +248,7 @@ impl HullMesh {
 
     /// Checks closure and measures.
     #[must_use]
+    #[doc(hidden)]
     pub fn report(&self) -> MeshReport {
         measure(&self.vertices, self.triangles.iter().map(|(_, corners)| *corners))
     }

@@ -146,6 +146,7 @@ pub struct OffsetTable {
     /// The plane of the transom.
     pub transom: Option<TransomPlane>,
     /// How the table was written.
+    #[doc(hidden)]
     pub form: TableForm,
 }
 

@@ -120,8 +120,10 @@ pub struct Conventions {
     /// Height of the centre of gravity above the base line \[m\], when known; GM and MTC use it.
     pub centre_of_gravity_height: Option<f64>,
     /// Main dimensions that were assumed, because the table that the hull was laid through does not state them.
+    #[doc(hidden)]
     pub assumed: Assumed,
     /// What the user stated, of that which every page names.
+    #[doc(hidden)]
     pub given: Given,
     /// How stations are numbered.
     pub stations: StationNumbers,
@@ -270,6 +272,7 @@ impl Conventions {
 
     /// What the numbers of a table are referred to, one statement a line; to be printed with every table.
     #[must_use]
+    #[doc(hidden)]
     pub fn statements(&self) -> Vec<Statement> {
         let say = |subject, text: &str| Statement { subject, text: text.to_owned() };
         let (metacentre, known) = match self.centre_of_gravity_height {

@@ -327,6 +327,7 @@ impl CurvesOfForm {
     /// `finer` is a mesh of the same surfaces with every edge halved, where there is one: what is of second order in
     /// both is then extrapolated.
     #[must_use]
+    #[doc(hidden)]
     pub fn of_triangles(
         mesh: &TriangleMesh,
         finer: Option<&TriangleMesh>,

@@ -87,6 +87,7 @@ impl ShipType {
     /// The preset. Ratios and coefficients lie inside the bands of users of each type (Kristensen & Luetzen 2012 for Cm
     /// of merchant ships); profiles are those of ordinary ships of the type.
     #[must_use]
+    #[doc(hidden)]
     pub fn preset(self) -> Preset {
         let common = Preset {
             length_breadth: [6.3, 5.3, 8.0],

@@ -204,9 +204,9 @@ impl Figure {
     /// Draws the figure.
     ///
     /// ```
-    /// use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-    /// use loftsman::parametric::analytic::{Dimensions, wigley};
-    /// use loftsman::plot::{Figure, FigureInputs};
+    /// use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
+    /// use loftsman::internals::parametric::analytic::{Dimensions, wigley};
+    /// use loftsman::internals::plot::{Figure, FigureInputs};
     ///
     /// let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };
     /// let hull = wigley("Wigley", &dimensions).map_err(|_| "dimensions out of range")?.hull;

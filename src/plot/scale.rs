@@ -44,7 +44,7 @@ fn round_up(value: f64, mantissas: &[f64]) -> f64 {
 /// A scale of nothing (`value` not a positive number) is 1.
 ///
 /// ```
-/// use loftsman::plot::sheet_scale;
+/// use loftsman::internals::plot::sheet_scale;
 /// assert_eq!(sheet_scale(463.4, 120.0).to_string(), "4"); // raw scale 3.86
 /// assert_eq!(sheet_scale(12.8, 100.0).to_string(), "0.2"); // raw scale 0.128
 /// ```

@@ -74,6 +74,7 @@ pub struct CompareOutputs {
 impl CompareOutputs {
     /// What the files and the JSON of the command hold.
     #[must_use]
+    #[doc(hidden)]
     pub fn file(&self) -> CompareFile<'_> {
         CompareFile {
             names: [&self.hulls[0].name, &self.hulls[1].name],

@@ -49,6 +49,7 @@ pub struct DeriveOutputs {
     /// The parent and the daughter beside each other.
     pub comparison: CompareOutputs,
     /// The targets.
+    #[doc(hidden)]
     pub targets: Vec<DerivedTarget>,
     /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
     pub inflections: [usize; 2],
@@ -63,6 +64,7 @@ pub struct DeriveOutputs {
 impl DeriveOutputs {
     /// What `derive.json` and the JSON of the command hold.
     #[must_use]
+    #[doc(hidden)]
     pub fn report(&self) -> DeriveReport<'_> {
         let derived = &self.derived;
         DeriveReport {

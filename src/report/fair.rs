@@ -61,6 +61,7 @@ pub struct FairOutputs {
     /// The hull, what moved and what holds.
     pub outcome: Outcome,
     /// What writing the table in its notation did.
+    #[doc(hidden)]
     pub rounding: RoundingEffect,
     /// Hydrostatics at the design draught, before and after; none where no draught is stated.
     pub rows: Option<[Hydrostatics; 2]>,

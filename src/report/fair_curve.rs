@@ -77,6 +77,7 @@ pub struct FairedCurve {
     /// The points as they were used: suspects that are left out have no ordinate.
     pub points: Vec<CurvePoint>,
     /// Suspects, and corners that are shown and not declared.
+    #[doc(hidden)]
     pub found: Contradictions,
     /// What came of them.
     pub fair: FairCurve,

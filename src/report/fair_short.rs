@@ -60,7 +60,7 @@ pub(super) fn least(outcome: &Outcome) -> String {
 }
 
 /// The page of `fair` in short: the first line says whether the hull is fairer, by how much and what it cost. Eight
-/// lines follow; [`super::fair_page`] has the rest.
+/// lines follow; the page has the rest.
 #[must_use]
 pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let outcome = &outputs.outcome;

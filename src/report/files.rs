@@ -32,6 +32,7 @@ impl OutputFile {
     ///
     /// # Errors
     /// [`Failure::Internal`] when a workbook cannot hold it.
+    #[doc(hidden)]
     pub fn table(name: &str, text: String, form: &TableForm) -> Result<Self, Failure> {
         if !is_workbook(Path::new(name)) {
             return Ok(Self::text(name, text));

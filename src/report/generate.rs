@@ -25,6 +25,7 @@ pub struct Outputs {
     /// The hull.
     pub hull: Hull,
     /// The design condition.
+    #[doc(hidden)]
     pub summary: SummaryFile,
     /// Hydrostatics at the design draught.
     pub design_row: Hydrostatics,

@@ -91,6 +91,7 @@ fn decompose<const D: usize>(knots: &KnotVector, points: &[[f64; D]], width: usi
 impl<const D: usize> BsplineCurve<D> {
     /// The polynomial pieces in order, one a span of positive length.
     #[must_use]
+    #[doc(hidden)]
     pub fn bezier_pieces(&self) -> Vec<BezierCurve<D>> {
         let p = self.knots().degree();
         let points = decompose(self.knots(), self.points(), 1);
@@ -107,6 +108,7 @@ impl<const D: usize> BsplineCurve<D> {
 impl<const D: usize> BsplineSurface<D> {
     /// The polynomial patches, one a pair of spans of positive length, `u` slowest.
     #[must_use]
+    #[doc(hidden)]
     pub fn bezier_patches(&self) -> Vec<BezierPatch<D>> {
         let (p, q) = (self.u().degree(), self.v().degree());
         let (in_u, in_v) = (self.u().breakpoints(), self.v().breakpoints());

@@ -12,6 +12,7 @@ impl<const D: usize> BsplineSurface<D> {
     /// # Errors
     /// [`SplineError::PointCount`] when the points are no grid of two rows and two columns at least,
     /// [`SplineError::Site`] when two successive rows or columns coincide, [`SplineError::NotFinite`].
+    #[doc(hidden)]
     pub fn through_grid(
         degrees: [usize; 2],
         rule: Parametrization,

@@ -106,6 +106,7 @@ impl<const D: usize> BsplineCurve<D> {
     /// # Errors
     /// As [`BsplineCurve::interpolate`]; [`SplineError::Site`] also when an end is held and its site is not that of the
     /// domain.
+    #[doc(hidden)]
     pub fn fit(knots: KnotVector, sites: &[f64], points: &[[f64; D]], ends: Ends) -> Result<Self, SplineError> {
         check_points(points.len(), sites.len(), points)?;
         let control = fit_items(&knots, sites, points, 1, ends)?;
@@ -142,6 +143,7 @@ impl<const D: usize> BsplineSurface<D> {
     ///
     /// # Errors
     /// As [`BsplineCurve::fit`].
+    #[doc(hidden)]
     pub fn fit(
         knots: [KnotVector; 2],
         sites: [&[f64]; 2],

@@ -119,6 +119,7 @@ impl<const D: usize> BsplineCurve<D> {
     ///
     /// # Errors
     /// [`SplineError::PointCount`] or [`SplineError::NotFinite`].
+    #[doc(hidden)]
     pub fn interpolate_periodic(collocation: &PeriodicCollocation, points: &[[f64; D]]) -> Result<Self, SplineError> {
         if points.len() != collocation.count {
             return Err(SplineError::PointCount { found: points.len(), expected: collocation.count });
@@ -132,6 +133,7 @@ impl<const D: usize> BsplineSurface<D> {
     ///
     /// # Errors
     /// [`SplineError::PointCount`] or [`SplineError::NotFinite`].
+    #[doc(hidden)]
     pub fn interpolate_periodic(
         collocations: [&PeriodicCollocation; 2],
         points: &[[f64; D]],

@@ -1,6 +1,6 @@
 //! C2 cubic interpolation along the lines of a table.
 
-use loftsman::spline::{Collocation, KnotVector};
+use loftsman::internals::spline::{Collocation, KnotVector};
 
 use super::Table;
 use super::lines::{Direction, Line, PLACES};

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::rc::Rc;
 
-use loftsman::numeric::SymmetricBand;
+use loftsman::internals::numeric::SymmetricBand;
 use nalgebra::DMatrix;
 
 use super::Table;

@@ -11,7 +11,7 @@ pub(crate) mod lines;
 mod net;
 mod smoother;
 
-use loftsman::hull::OffsetTable;
+use loftsman::internals::hull::OffsetTable;
 
 pub(crate) use fair_net::FairNet;
 use lines::{Direction, Line};

@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use loftsman::numeric::{BandedCholesky, SymmetricBand};
-use loftsman::spline::{Gram, KnotVector, add_product, binomial};
+use loftsman::internals::numeric::{BandedCholesky, SymmetricBand};
+use loftsman::internals::spline::{Gram, KnotVector, add_product, binomial};
 
 use super::Table;
 

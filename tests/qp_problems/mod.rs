@@ -2,8 +2,8 @@
 
 pub(crate) mod second_opinion;
 
-use loftsman::qp::{Problem, SparseRows};
-use loftsman::spline::{Gram, KnotVector};
+use loftsman::internals::qp::{Problem, SparseRows};
+use loftsman::internals::spline::{Gram, KnotVector};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 const LENGTH: f64 = 100.0;

@@ -5,7 +5,7 @@
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
-use loftsman::qp::{Problem, Settings, Solution, Status};
+use loftsman::internals::qp::{Problem, Settings, Solution, Status};
 
 /// One row of the cone form: A_k x + s = b.
 struct ConeRow {

@@ -6,8 +6,8 @@ use std::panic::Location;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use loftsman::exchange::{ReadTable, read_table, read_table_with};
-use loftsman::hull::{Cell, OffsetTable, StationOffsets};
+use loftsman::internals::exchange::{ReadTable, read_table, read_table_with};
+use loftsman::internals::hull::{Cell, OffsetTable, StationOffsets};
 use rand::RngExt;
 use rand::rngs::StdRng;
 use serde_json::Value;

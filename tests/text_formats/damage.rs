@@ -1,7 +1,7 @@
 //! Damaged files and bytes that are no table.
 
 use super::*;
-use loftsman::exchange::Severity;
+use loftsman::internals::exchange::Severity;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 

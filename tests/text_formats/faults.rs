@@ -1,7 +1,7 @@
 //! Every message, provoked once.
 
 use super::*;
-use loftsman::exchange::Severity;
+use loftsman::internals::exchange::Severity;
 
 /// What is wrong with a file, provoked once each: name, text, code, row (0: the whole file), part of the message.
 fn faults() -> Vec<(&'static str, String, &'static str, usize, &'static str)> {

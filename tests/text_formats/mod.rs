@@ -6,11 +6,11 @@ mod faults;
 mod published;
 mod samples;
 
-use loftsman::exchange::{
+use loftsman::internals::exchange::{
     ReadTable, TableProblem, read_table, write_britfair, write_delftship, write_freeship, write_ghs, write_michlet,
     write_pdstrip, write_pias,
 };
-use loftsman::hull::{Marks, OffsetTable, OutlinePoint, StationOffsets};
+use loftsman::internals::hull::{Marks, OffsetTable, OutlinePoint, StationOffsets};
 
 use crate::support::read;
 

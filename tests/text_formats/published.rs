@@ -1,8 +1,8 @@
 //! Published hulls, against figures that were found by other means.
 
 use super::{breadth, list, read, volume};
-use loftsman::exchange::{ReadTable, read_fractions, read_particulars, read_table};
-use loftsman::hull::StatedParticulars;
+use loftsman::internals::exchange::{ReadTable, read_fractions, read_particulars, read_table};
+use loftsman::internals::hull::StatedParticulars;
 
 use crate::support::shared_folder;
 

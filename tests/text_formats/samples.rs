@@ -37,7 +37,7 @@ fn sections_under_water_for_strip_theory() {
 
 #[test]
 fn grids_are_written_as_sections() {
-    use loftsman::parametric::analytic::{self, Dimensions};
+    use loftsman::internals::parametric::analytic::{self, Dimensions};
     let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };
     let hull = analytic::wigley("Wigley", &dimensions).expect("valid dimensions").hull;
     let table = OffsetTable::with_defaults(&hull);
@@ -52,8 +52,11 @@ fn grids_are_written_as_sections() {
 #[test]
 fn offsets_with_counts_and_flags() {
     let ReadTable { table, notes } = read("a.txt", DELFTSHIP);
-    let cells: Vec<Vec<Option<f64>>> =
-        table.stations.iter().map(|s| s.half_breadths.iter().map(loftsman::hull::Cell::value).collect()).collect();
+    let cells: Vec<Vec<Option<f64>>> = table
+        .stations
+        .iter()
+        .map(|s| s.half_breadths.iter().map(loftsman::internals::hull::Cell::value).collect())
+        .collect();
     assert_eq!(cells[0], [None, None, Some(1.0)]);
     assert_eq!(cells[3], [None, Some(0.25), Some(0.5)]);
     assert_eq!(table.waterlines, [0.5, 1.5, 3.0]);
@@ -72,7 +75,8 @@ fn offsets_with_counts_and_flags() {
     );
     let turned = read("a.txt", &turned).table;
     for (a, b) in table.stations.iter().zip(&turned.stations) {
-        let values = |s: &StationOffsets| s.half_breadths.iter().map(loftsman::hull::Cell::value).collect::<Vec<_>>();
+        let values =
+            |s: &StationOffsets| s.half_breadths.iter().map(loftsman::internals::hull::Cell::value).collect::<Vec<_>>();
         assert_eq!(values(a), values(b));
     }
 }
@@ -171,7 +175,8 @@ fn tables_of_delftship_are_read_back() {
     assert_eq!(write_delftship(&again), text);
     assert_eq!((&again.waterlines, &again.endings), (&first.waterlines, &first.endings));
     for (a, b) in again.stations.iter().zip(&first.stations) {
-        let values = |s: &StationOffsets| s.half_breadths.iter().map(loftsman::hull::Cell::value).collect::<Vec<_>>();
+        let values =
+            |s: &StationOffsets| s.half_breadths.iter().map(loftsman::internals::hull::Cell::value).collect::<Vec<_>>();
         assert_eq!(values(a), values(b));
         assert_eq!((a.keel_height, a.deck_height, a.flat_of_bottom), (b.keel_height, b.deck_height, b.flat_of_bottom));
     }

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use loftsman::exchange::read_table;
-use loftsman::hull::Hull;
-use loftsman::parametric::cosh::{DesignTargets, MidshipTarget};
-use loftsman::parametric::{Family, ShipType, analytic, ucl_cosh};
+use loftsman::internals::exchange::read_table;
+use loftsman::internals::hull::Hull;
+use loftsman::internals::parametric::cosh::{DesignTargets, MidshipTarget};
+use loftsman::internals::parametric::{Family, ShipType, analytic, ucl_cosh};
 
 use crate::partners::{FairNet, Table};
 use crate::random::Random;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use loftsman::fairing::job::Job;
+use loftsman::internals::fairing::job::Job;
 
 use super::Draw;
 use crate::partners::{self, Table, lines};

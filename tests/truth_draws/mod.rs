@@ -8,9 +8,9 @@ mod places;
 
 use std::fmt::Write;
 
-use loftsman::exchange::read_table;
-use loftsman::hull::OffsetTable;
-use loftsman::units::Notation;
+use loftsman::internals::exchange::read_table;
+use loftsman::internals::hull::OffsetTable;
+use loftsman::internals::units::Notation;
 
 use crate::partners::{Table, lines};
 use crate::random::Random;

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use loftsman::fairing::constraint::Constraint;
-use loftsman::fairing::outcome::Outcome;
-use loftsman::hull::{FitMethod, Hull, OffsetTable};
+use loftsman::internals::fairing::constraint::Constraint;
+use loftsman::internals::fairing::outcome::Outcome;
+use loftsman::internals::hull::{FitMethod, Hull, OffsetTable};
 
 use super::{Case, Truth, cases};
 
@@ -232,7 +232,7 @@ impl Summary {
                 list.iter().filter(|m| m.rms[1] > m.rms[0]).count(),
                 list.iter().filter(|m| m.most[1] > m.most[0].max(m.largest)).count(),
             ],
-            failed: list.iter().filter(|m| m.outcome.status != loftsman::qp::Status::Optimal).count(),
+            failed: list.iter().filter(|m| m.outcome.status != loftsman::internals::qp::Status::Optimal).count(),
         }
     }
 

@@ -20,16 +20,16 @@ pub(crate) mod measure;
 
 use std::path::Path;
 
-use loftsman::exchange::read_table;
-use loftsman::fairing::constraint::Constraint;
-use loftsman::fairing::fair::PRICE;
-use loftsman::fairing::job::{Holding, Job};
-use loftsman::hull::{
+use loftsman::internals::exchange::read_table;
+use loftsman::internals::fairing::constraint::Constraint;
+use loftsman::internals::fairing::fair::PRICE;
+use loftsman::internals::fairing::job::{Holding, Job};
+use loftsman::internals::hull::{
     Cell, Entry, Hull, Marks, OffsetStation, OffsetTable, StatedParticulars, StationOffsets, Written,
 };
-use loftsman::parametric::ShipType;
-use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
-use loftsman::units::Notation;
+use loftsman::internals::parametric::ShipType;
+use loftsman::internals::parametric::cosh::{self, DesignTargets, MidshipTarget};
+use loftsman::internals::units::Notation;
 
 use crate::partners::FairNet;
 use crate::random::Random;

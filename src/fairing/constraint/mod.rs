@@ -21,7 +21,7 @@ mod wetted;
 use super::model::{Limit, Row};
 use crate::hull::Hull;
 
-/// A wish for the whole hull.
+/// A target for the whole hull.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Constraint {
     /// Displaced volume \[m^3\] at the design draught.
@@ -146,7 +146,7 @@ impl Constraint {
         }
     }
 
-    /// What is wished, in the unit of the quantity.
+    /// The target, in the unit of the quantity.
     #[must_use]
     pub fn target(&self) -> f64 {
         match *self {
@@ -166,7 +166,7 @@ impl Constraint {
         }
     }
 
-    /// The same wish with another target.
+    /// The same quantity with another target.
     #[must_use]
     pub fn with_target(self, target: f64) -> Self {
         match self {
@@ -236,7 +236,7 @@ impl Constraint {
         if let Self::SectionArea { band, .. } = self { *band } else { 0.0 }
     }
 
-    /// The same wish where a value meets it; else one whose nearest limit is that value, and that band wide.
+    /// The same constraint where a value meets it; else one whose nearest limit is that value, and that band wide.
     #[must_use]
     pub fn eased(self, value: f64, hull: &Hull) -> Self {
         let off = value - self.target();
@@ -247,7 +247,7 @@ impl Constraint {
         }
     }
 
-    /// By how much a value misses the wish, over its scale.
+    /// By how much a value misses the target, over its scale.
     #[must_use]
     pub fn missed(&self, value: f64, hull: &Hull) -> f64 {
         ((value - self.target()).abs() - self.band()).max(0.0) / self.scale(hull)
@@ -261,6 +261,7 @@ impl Constraint {
 
     /// [`Constraint::limit`] with `room` more to both sides, in the unit of the quantity.
     #[must_use]
+    #[doc(hidden)]
     pub fn limit_within(&self, hull: &Hull, room: f64) -> Limit {
         let (limit, room) = (self.limit(hull), room / self.scale(hull));
         Limit { lower: limit.lower - room, upper: limit.upper + room, row: limit.row }
@@ -269,6 +270,7 @@ impl Constraint {
     /// The row and its limits over the net of a hull; rows are scaled so that a relative error of the quantity (for
     /// centres: an error over L_PP or T) is an error of the row.
     #[must_use]
+    #[doc(hidden)]
     pub fn limit(&self, hull: &Hull) -> Limit {
         match *self {
             Self::Displacement(target) => volume::limit(hull, hull.reference_height(), target),

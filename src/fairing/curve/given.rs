@@ -66,6 +66,7 @@ pub struct CurveSettings {
     /// Whether the metric of true curvature is used where slopes are not mild.
     pub true_curvature: bool,
     /// The solver.
+    #[doc(hidden)]
     pub solver: Settings,
 }
 
@@ -112,6 +113,7 @@ pub enum CurveError {
     },
     /// Points or tolerances that make no bands.
     #[error(transparent)]
+    #[doc(hidden)]
     Bands(#[from] BandsError),
     /// Knots that make no spline.
     #[error(transparent)]
@@ -121,8 +123,10 @@ pub enum CurveError {
         "the points do not determine the curve: too few with an ordinate between its knuckles and tangent points for an energy of this order, \
          2 at least and more between tangent points; give more, or take a lower --order ({0})"
     )]
+    #[doc(hidden)]
     Undetermined(#[from] SingularMatrix),
     /// Numbers that make no program.
     #[error(transparent)]
+    #[doc(hidden)]
     Problem(#[from] ProblemError),
 }

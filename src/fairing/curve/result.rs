@@ -19,7 +19,7 @@ const SAMPLES: usize = 8;
 pub enum FairStatus {
     /// The optimum of the convex program.
     Optimal,
-    /// The wishes contradict each other within the tolerances: the curve is the best with the tolerances multiplied by
+    /// The targets contradict each other within the tolerances: the curve is the best with the tolerances multiplied by
     /// [`FairCurve::widening`], or the one that comes nearest to them ([`FairCurve::nearest`]).
     Infeasible,
     /// The solver stopped early.
@@ -133,10 +133,12 @@ pub struct FairCurve {
     /// Effective degrees of freedom of the smoothed curve.
     pub freedom: f64,
     /// The weights that were tried.
+    #[doc(hidden)]
     pub trials: Vec<Trial>,
     /// Bound and residuals, computed outside the solver.
     pub certificate: Certificate,
     /// Constraints of the whole curve.
+    #[doc(hidden)]
     pub lines: Vec<CurveLine>,
     /// The least number of inflections within the tolerances, with its proof.
     pub least: Inflections,
@@ -152,8 +154,9 @@ pub struct FairCurve {
     /// Factor on all tolerances; 1 unless infeasible.
     pub widening: f64,
     /// Why area, centroid and slopes cannot be met, in numbers.
+    #[doc(hidden)]
     pub diagnosis: Option<Diagnosis>,
-    /// Whether these gave way to the nearest that can be had.
+    /// Whether area, centroid and slopes were replaced by the nearest that can be met.
     pub nearest: bool,
     /// Convex programs solved, and iterations of the solver in them.
     pub work: [usize; 2],
@@ -163,6 +166,7 @@ pub struct FairCurve {
 
 impl FairCurve {
     /// Says of points that were fitted without their ordinates, because they are suspected, what was given.
+    #[doc(hidden)]
     pub fn left_out(&mut self, suspects: &[CurveSuspect]) {
         for suspect in suspects {
             if let Some(point) = self.points.get_mut(suspect.index) {

@@ -64,8 +64,10 @@ pub struct Inflections {
     /// No curve within the bands has fewer.
     pub lower_bound: usize,
     /// The stretches between ends and knuckles.
+    #[doc(hidden)]
     pub stretches: Vec<Stretch>,
     /// The numbers below [`Inflections::count`].
+    #[doc(hidden)]
     pub smaller: Vec<SmallerCount>,
     /// The part of the tolerances that the curve uses, at most 1.
     pub factor: f64,

@@ -78,8 +78,10 @@ pub struct Suspect {
     /// Its half-breadth \[m\].
     pub value: f64,
     /// What its neighbours say.
+    #[doc(hidden)]
     pub verdict: CellVerdict,
     /// The hypotheses, most probable first; probabilities sum to one.
+    #[doc(hidden)]
     pub readings: Vec<Reading>,
     /// Probability that the cell is wrong.
     pub probability: f64,
@@ -107,6 +109,7 @@ pub struct Suspects {
     pub suspects: Vec<Suspect>,
     /// By station and waterline: what the neighbours say once the suspects are set aside; none where too few neighbours
     /// speak.
+    #[doc(hidden)]
     pub verdicts: Vec<Vec<Option<CellVerdict>>>,
 }
 

@@ -13,12 +13,16 @@ pub enum FitMethod {
     /// bilinear. It errs by |y_xx| dx^2 / 8 + |y_zz| dz^2 / 8 (Blagojevic, Split, programs 1 and 2).
     Bilinear,
     /// Least squares on a tensor product with few control points; cells are not met.
+    #[doc(hidden)]
     LeastSquares(LeastSquares),
     /// Uniform bicubic surface over the offsets as vertices, ends repeated three times; inner cells are not met.
+    #[doc(hidden)]
     UniformBicubic(UniformBicubic),
     /// Quadratic surface over the offsets as control points; inner cells are not met.
+    #[doc(hidden)]
     QuadraticNet(QuadraticNet),
     /// Waterlines splined with their ends and cut into equal parts, columns likewise, and a surface through those points.
+    #[doc(hidden)]
     ParametricStations(ParametricStations),
 }
 

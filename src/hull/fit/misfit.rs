@@ -49,6 +49,7 @@ impl Fitted {
     /// The points of sections that the surface is to pass through: outermost points above the bottom, at which the hull
     /// reaches. Empty for tables without such points.
     #[must_use]
+    #[doc(hidden)]
     pub fn points(&self, table: &OffsetTable) -> Vec<PointResidual> {
         outlines::point_residuals(table, &self.hull).0
     }

@@ -92,6 +92,7 @@ pub enum FitError {
     },
     /// The settings of the method are wrong, or do not go with the table: every problem.
     #[error(transparent)]
+    #[doc(hidden)]
     Settings(#[from] SettingProblems),
     /// The surface is no hull.
     #[error(transparent)]
