@@ -3,12 +3,12 @@
 
 use std::fs;
 
-use loftsman::derivation::{
+use loftsman::internals::derivation::{
     Blend, BlendRequest, Dimension, Dimensions, Method, Quantity, Reference, Request, blend, derive, scaled, value_of,
 };
-use loftsman::hull::Hull;
-use loftsman::hydrostatics::Conventions;
-use loftsman::report::read_source;
+use loftsman::internals::hull::Hull;
+use loftsman::internals::hydrostatics::Conventions;
+use loftsman::internals::report::read_source;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
@@ -76,7 +76,7 @@ fn all_of_the_weight_gives_the_hull() {
     for (blend, which) in [(&alone, 0), (&other, 1)] {
         let parent = &blend.parents[which];
         assert!(parent.error < 1e-5 * 142.0, "{}", parent.error);
-        let away = loftsman::hull::surface_distance(&blend.hull, &parent.scaled).unwrap();
+        let away = loftsman::internals::hull::surface_distance(&blend.hull, &parent.scaled).unwrap();
         assert!(away.largest < 2.0 * parent.error + 1e-9, "{} {}", away.largest, parent.error);
     }
     assert!(alone.parents[alone.base].error == 0.0);

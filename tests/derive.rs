@@ -313,7 +313,7 @@ fn the_wave_resistance_falls_as_its_weight_rises() {
         assert!(pair[1].ratio < pair[0].ratio + 1e-9 && pair[1].energy > pair[0].energy - 1e-12, "{pair:?}");
         // Each is the least of J + w R of its own weight.
         for (this, other) in [(pair[0], pair[1]), (pair[1], pair[0])] {
-            let sum = |trade: loftsman::derivation::WaveTrade| trade.energy + this.weight * trade.ratio;
+            let sum = |trade: loftsman::internals::derivation::WaveTrade| trade.energy + this.weight * trade.ratio;
             assert!(sum(this) <= sum(other) * (1.0 + 1e-9), "{pair:?}");
         }
     }
@@ -337,7 +337,7 @@ fn the_wave_resistance_of_a_raked_hull_falls_within_a_tolerance() {
     let outputs = derived("container-ship", &options);
     let waves = outputs.derived.waves.as_ref().unwrap();
     assert!(waves.after[0] < 0.999 * waves.before[0], "{waves:?}");
-    let points = |hull: &loftsman::hull::Hull| hull.surface().points().to_vec();
+    let points = |hull: &loftsman::internals::hull::Hull| hull.surface().points().to_vec();
     let (before, after) = (points(&outputs.derived.scaled), points(&outputs.derived.hull));
     let largest = before.iter().zip(&after).map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f64::max);
     assert!(largest < 0.040_01 && largest > 0.001, "{largest}");

@@ -4,10 +4,10 @@
 use std::f64::consts::PI;
 use std::fs;
 
-use loftsman::exchange::{ReadTable, TableProblem, read_body, read_table, read_table_with};
-use loftsman::hull::{FitMethod, Hull};
-use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::report::{ExportFormat, ExportSettings, export, read_source};
+use loftsman::internals::exchange::{ReadTable, TableProblem, read_body, read_table, read_table_with};
+use loftsman::internals::hull::{FitMethod, Hull};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
+use loftsman::internals::report::{ExportFormat, ExportSettings, export, read_source};
 
 use crate::support::carried;
 

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use loftsman::exchange::{ReadTable, read_table};
-use loftsman::fairing::{PointSuspects, point_suspects};
+use loftsman::internals::exchange::{ReadTable, read_table};
+use loftsman::internals::fairing::{PointSuspects, point_suspects};
 use serde_json::Value;
 
 use crate::support::{carried, folder, json, program, read_text, stderr, stdout};

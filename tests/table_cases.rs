@@ -4,8 +4,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use loftsman::hydrostatics::{Conventions, Hydrostatics};
-use loftsman::report::{Failure, HydrostaticBody, read_hydrostatic_body};
+use loftsman::internals::hydrostatics::{Conventions, Hydrostatics};
+use loftsman::internals::report::{Failure, HydrostaticBody, read_hydrostatic_body};
 
 use crate::support::{carried, folder, json, program, read_text, stderr, stdout};
 
@@ -276,7 +276,7 @@ fn cells_with_units_have_digits() {
         .collect();
     let table = crate::support::read("units.csv", &(with_units.join("\n") + "\n")).table;
     assert_eq!(table.form.decimals, Some(3));
-    assert!(!loftsman::fairing::suspects(&table).suspects.is_empty());
+    assert!(!loftsman::internals::fairing::suspects(&table).suspects.is_empty());
 }
 
 /// Waterlines that are counted in words, and lines of boats in other words.
@@ -317,7 +317,7 @@ fn a_row_of_the_stern_that_holds_half_breadths_is_told() {
     assert!(told(&notes("stern,0.2,0.6,1.1,1.6")));
     assert!(!told(&notes("stern,1.6,1.1,0.6,0.2")) && !told(&notes("stern,0.5,0.5,0.5,0.5")));
     let bytes = table("stem,0.1,0.2,0.3,0.4");
-    let problems = loftsman::exchange::read_table("t.csv", bytes.as_bytes()).unwrap_err();
+    let problems = loftsman::internals::exchange::read_table("t.csv", bytes.as_bytes()).unwrap_err();
     let text = problems[0].to_string();
     assert!(
         text.contains("E303") && text.contains("write its position behind the name, as 'stem station (20 m)'"),

@@ -68,6 +68,7 @@ pub struct Derived {
     /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
     pub inflections: [usize; 2],
     /// The wave resistance, where it is made small.
+    #[doc(hidden)]
     pub waves: Option<WaveResult>,
 }
 

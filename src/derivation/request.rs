@@ -97,6 +97,7 @@ pub struct Request {
     /// Ends of the parallel body of the daughter \[m\], of the method of Lackenby.
     pub parallel_body: Option<[f64; 2]>,
     /// The wave resistance that is made small, of the nearest hull.
+    #[doc(hidden)]
     pub waves: Option<WaveRequest>,
 }
 
