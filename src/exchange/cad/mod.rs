@@ -2,12 +2,14 @@
 
 mod dxf;
 mod iges;
+mod rhino;
 mod step;
 mod surfaces;
 
 pub use dxf::{DxfLine, DxfVersion, write_dxf};
 pub use iges::write_iges;
 pub(super) use iges::{is_iges, read_iges};
+pub use rhino::write_3dm;
 pub use step::write_step;
 pub(super) use step::{is_step, read_step};
 pub(super) use surfaces::{CadCurve, CadSurfaces, Unread};
