@@ -10,6 +10,7 @@ pub use dxf::{DxfLine, DxfVersion, write_dxf};
 pub use iges::write_iges;
 pub(super) use iges::{is_iges, read_iges};
 pub use rhino::write_3dm;
+pub(super) use rhino::{Model, ModelObject, PlacedObject, is_3dm, read_3dm, united};
 pub use step::write_step;
 pub(super) use step::{is_step, read_step};
 pub(super) use surfaces::{CadCurve, CadSurfaces, Unread};

@@ -55,7 +55,7 @@ use crate::hull::{HullMesh, Region};
 use crate::spline::{cross, length, minus};
 
 /// Meshes of more triangles are not read.
-const MOST_TRIANGLES: usize = 6_000_000;
+pub(super) const MOST_TRIANGLES: usize = 6_000_000;
 
 /// Regions of a mesh that have triangles, in the order of files, each with its triangles.
 fn regions(mesh: &HullMesh) -> Vec<(Region, Vec<[usize; 3]>)> {

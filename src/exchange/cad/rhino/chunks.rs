@@ -37,6 +37,8 @@ pub(super) mod code {
     pub(in super::super) const CLASS: u32 = 0x0002_7ffa;
     pub(in super::super) const CLASS_ID: u32 = 0x0002_fffb;
     pub(in super::super) const CLASS_DATA: u32 = 0x0002_fffc;
+    pub(in super::super) const USER_DATA: u32 = 0x0002_7ffd;
+    pub(in super::super) const USER_DATA_HEADER: u32 = 0x0002_fff9;
     pub(in super::super) const CLASS_END: u32 = 0x8002_7fff;
 }
 
@@ -58,6 +60,21 @@ pub(super) mod class {
     pub(in super::super) const LINE_CURVE: [u8; 16] = id(0x4ed7_d4db, 0xe947, 0x11d3, OLD);
     pub(in super::super) const NURBS_CURVE: [u8; 16] = id(0x4ed7_d4dd, 0xe947, 0x11d3, OLD);
     pub(in super::super) const NURBS_SURFACE: [u8; 16] = id(0x4ed7_d4de, 0xe947, 0x11d3, OLD);
+    pub(in super::super) const PLANE_SURFACE: [u8; 16] = id(0x4ed7_d4df, 0xe947, 0x11d3, OLD);
+    pub(in super::super) const POLY_CURVE: [u8; 16] = id(0x4ed7_d4e0, 0xe947, 0x11d3, OLD);
+    pub(in super::super) const MESH: [u8; 16] = id(0x4ed7_d4e4, 0xe947, 0x11d3, OLD);
+    pub(in super::super) const POLYLINE_CURVE: [u8; 16] = id(0x4ed7_d4e6, 0xe947, 0x11d3, OLD);
+    pub(in super::super) const ARC_CURVE: [u8; 16] =
+        id(0xcf33_be2a, 0x09b4, 0x11d4, [0xbf, 0xfb, 0x00, 0x10, 0x83, 0x01, 0x22, 0xf0]);
+    pub(in super::super) const REVOLVED_SURFACE: [u8; 16] =
+        id(0xa162_20d3, 0x163b, 0x11d4, [0x80, 0x00, 0x00, 0x10, 0x83, 0x01, 0x22, 0xf0]);
+    pub(in super::super) const SUM_SURFACE: [u8; 16] =
+        id(0xc4cd_5359, 0x446d, 0x4690, [0x9f, 0xf5, 0x29, 0x05, 0x97, 0x32, 0x47, 0x2b]);
+    pub(in super::super) const EXTRUSION: [u8; 16] =
+        id(0x36f5_3175, 0x72b8, 0x4d47, [0xbf, 0x1f, 0xb4, 0xe6, 0xfc, 0x24, 0xf4, 0xb9]);
+    /// Vertices of 64 bits beside a mesh of version 5.
+    pub(in super::super) const DOUBLE_VERTICES: [u8; 16] =
+        id(0x17f2_4e75, 0x21be, 0x4a7b, [0x9f, 0x3d, 0x7f, 0x85, 0x22, 0x52, 0x47, 0xe3]);
 }
 
 /// Remainders of the CRC-32 of ISO 3309 for each byte.
