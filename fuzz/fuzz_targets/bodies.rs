@@ -4,9 +4,9 @@
 use libfuzzer_sys::fuzz_target;
 use loftsman::exchange::{read_body, read_subdivision, write_ftm};
 
-const NAMES: [&str; 19] = [
+const NAMES: [&str; 20] = [
     "a.stl", "a.obj", "a.igs", "a.step", "a.fbm", "a.ftm", "a.glb", "a.gdf", "a.pnl", "a.mar", "a.ply", "a.off", "a.vtk",
-    "a.vtu", "a.vtp", "a.msh", "a.3mf", "a.hst", "a.gltf",
+    "a.vtu", "a.vtp", "a.msh", "a.3mf", "a.hst", "a.gltf", "a.3dm",
 ];
 
 fuzz_target!(|data: &[u8]| {

@@ -7,9 +7,10 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
-    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_3dm, write_britfair, write_delftship, write_dxf, write_freeship,
-    write_ftm, write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_msh, write_nemoh, write_obj,
-    write_pdstrip, write_pias, write_ply, write_pnl, write_step, write_stl, write_stl_ascii, write_threemf, write_vtk,
+    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_3dm, write_britfair, write_delftship, write_dxf,
+    write_freeship, write_ftm, write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_msh, write_nemoh,
+    write_obj, write_pdstrip, write_pias, write_ply, write_pnl, write_step, write_stl, write_stl_ascii, write_threemf,
+    write_vtk,
 };
 use crate::hull::{
     Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, SharpCorner,

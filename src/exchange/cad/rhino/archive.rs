@@ -112,12 +112,8 @@ pub(super) fn tables(bytes: &[u8]) -> Result<Tables<'_>, String> {
     if archive < 2 {
         return Err("an archive of version 1, of Rhino 1; versions 2 to 8 are read".to_owned());
     }
-    let mut tables = Tables {
-        versions: Versions { archive, toolkit: 0 },
-        unit: None,
-        layers: Vec::new(),
-        records: Vec::new(),
-    };
+    let mut tables =
+        Tables { versions: Versions { archive, toolkit: 0 }, unit: None, layers: Vec::new(), records: Vec::new() };
     let mut rest = Cursor::new(&bytes[MAGIC.len() + 8..], archive >= 50);
     let mut ended = false;
     while !rest.is_at_end() && !ended {

@@ -1,10 +1,10 @@
 //! Polysurfaces of an archive: surfaces inside loops of edges.
 
+use super::archive::Versions;
 use super::chunks::{class, code};
 use super::cursor::{Cursor, Object};
 use super::curves::{Budget, Run};
 use super::surfaces::Patch;
-use super::archive::Versions;
 use crate::hull::{Brep, BrepEdge, BrepFace, FaceSurface, SpaceCurve};
 use crate::spline::{length, minus};
 
@@ -202,7 +202,8 @@ pub(super) fn read(
     let lists = Lists::read(object.data.inside, versions)?;
     let first = body.vertices.len();
     let extent = |k: usize| {
-        let ends = lists.vertices.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, p| [e[0].min(p[k]), e[1].max(p[k])]);
+        let ends =
+            lists.vertices.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, p| [e[0].min(p[k]), e[1].max(p[k])]);
         ends[1] - ends[0]
     };
     let size = (0..3).map(extent).fold(0.0, f64::max);
@@ -243,8 +244,7 @@ pub(super) fn whole(Patch { surface, ends, .. }: &Patch, kind: &str, body: &mut 
     for (axis, value, ends) in sides {
         let (curve, range) = match surface {
             FaceSurface::Plane { .. } => {
-                let [from, to] =
-                    ends.map(|t| surface.at(if axis == 1 { [t, value] } else { [value, t] })[0]);
+                let [from, to] = ends.map(|t| surface.at(if axis == 1 { [t, value] } else { [value, t] })[0]);
                 (SpaceCurve::between(from, to), [0.0, 1.0])
             }
             _ => surface.side(axis, value, ends)?,
@@ -256,6 +256,13 @@ pub(super) fn whole(Patch { surface, ends, .. }: &Patch, kind: &str, body: &mut 
     }
     let part = body.faces.len();
     let name = format!("surface {}", part + 1);
-    body.faces.push(BrepFace { name, kind: kind.to_owned(), surface: surface.clone(), loops: vec![ring], left: Some(true), part });
+    body.faces.push(BrepFace {
+        name,
+        kind: kind.to_owned(),
+        surface: surface.clone(),
+        loops: vec![ring],
+        left: Some(true),
+        part,
+    });
     Some(())
 }

@@ -1,6 +1,9 @@
 //! An archive that is read: numbers, texts, chunks and objects, all of them within their chunk.
 
-use super::chunks::{CRC, SHORT, code, crc};
+use super::chunks::{CRC, SHORT, class_of, code, crc};
+
+/// Larger numbers are of no ship in any unit.
+const LARGEST: f64 = 1e12;
 
 /// Most classes of data beside an object.
 const MOST_BESIDE: usize = 64;
@@ -77,8 +80,9 @@ impl<'a> Cursor<'a> {
         self.array().map(i32::from_le_bytes)
     }
 
+    /// A number of at most [`LARGEST`].
     pub(super) fn real(&mut self) -> Option<f64> {
-        self.array().map(f64::from_le_bytes).filter(|value| value.is_finite())
+        self.array().map(f64::from_le_bytes).filter(|value| value.abs() <= LARGEST)
     }
 
     pub(super) fn reals<const N: usize>(&mut self) -> Option<[f64; N]> {
@@ -156,7 +160,7 @@ impl<'a> Cursor<'a> {
     /// The object that begins here.
     pub(super) fn object(&mut self) -> Option<Object<'a>> {
         let mut inside = self.inside(code::CLASS)?;
-        let class = inside.inside(code::CLASS_ID)?.id()?;
+        let class = class_of(inside.inside(code::CLASS_ID)?.id()?);
         let data = inside.chunk().filter(|chunk| chunk.code == code::CLASS_DATA)?;
         let mut beside = Vec::new();
         while let Some(chunk) = inside.chunk().filter(|chunk| chunk.code == code::USER_DATA) {

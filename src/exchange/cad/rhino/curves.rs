@@ -49,11 +49,7 @@ pub(super) fn knots(data: &mut Cursor<'_>) -> Option<Vec<f64>> {
 }
 
 /// Control points as weights and points, in space or in a plane; of rational ones files have (w x, w y, w z, w).
-pub(super) fn net(
-    data: &mut Cursor<'_>,
-    [spatial, rational]: [bool; 2],
-    count: usize,
-) -> Option<Vec<(f64, [f64; 3])>> {
+pub(super) fn net(data: &mut Cursor<'_>, [spatial, rational]: [bool; 2], count: usize) -> Option<Vec<(f64, [f64; 3])>> {
     let stated = data.count(8 * (2 + usize::from(spatial) + usize::from(rational)))?;
     let point = |data: &mut Cursor<'_>| {
         let [x, y] = data.reals()?;

@@ -66,7 +66,10 @@ pub(super) fn read(object: &Object<'_>, body: &mut Brep, budget: &mut Budget) ->
     for Run { curve, range, .. } in profiles {
         let profile = curve.moved(&placed);
         for (ring, share) in rings.iter_mut().zip([0.0, 1.0]) {
-            let motion = Motion([0, 1, 2].map(|k| [0, 1, 2, 3].map(|j| if j == 3 { share * along[k] } else { f64::from(u8::from(j == k)) })));
+            let motion =
+                Motion([0, 1, 2].map(|k| {
+                    [0, 1, 2, 3].map(|j| if j == 3 { share * along[k] } else { f64::from(u8::from(j == k)) })
+                }));
             let curve = profile.moved(&motion);
             let first = body.vertices.len();
             body.vertices.extend(range.map(|t| curve.point(t)));
@@ -83,7 +86,14 @@ pub(super) fn read(object: &Object<'_>, body: &mut Brep, budget: &mut Budget) ->
         let origin = [0, 1, 2].map(|k: usize| origin[k] + share * along[k]);
         let (part, left) = (body.faces.len(), Some(share > 0.0));
         let name = format!("cap {}", part + 1);
-        body.faces.push(BrepFace { name, kind: KIND.to_owned(), surface: FaceSurface::Plane { origin, x, y }, loops, left, part });
+        body.faces.push(BrepFace {
+            name,
+            kind: KIND.to_owned(),
+            surface: FaceSurface::Plane { origin, x, y },
+            loops,
+            left,
+            part,
+        });
     }
     Some(())
 }

@@ -95,11 +95,7 @@ fn packed(
 }
 
 /// The vertices of 64 bits that stand at the end of a mesh from version 6 on.
-fn later(
-    data: &mut Cursor<'_>,
-    vertices: usize,
-    versions: Versions,
-) -> Result<Option<Vec<[f64; 3]>>, &'static str> {
+fn later(data: &mut Cursor<'_>, vertices: usize, versions: Versions) -> Result<Option<Vec<[f64; 3]>>, &'static str> {
     data.take(4 + 16).ok_or(CUT)?;
     buffer(data, None)?;
     if versions.toolkit >= 200_606_010 {

@@ -4,12 +4,12 @@ use super::archive::{MAGIC, Mode, Record, Tables, tables};
 use super::brep::{Lost, kind_of, read as read_brep, whole};
 use super::chunks::class;
 use super::curves::Budget;
-use super::{extrusion, mesh};
 use super::surfaces::Patch;
+use super::{extrusion, mesh};
 use crate::exchange::cad::{CadSurfaces, Unread};
 use crate::exchange::fault::RecordFault;
 use crate::hull::{Brep, FaceSurface, Motion, TriangleMesh};
-use crate::spline::{BsplineSurface, KnotVector};
+use crate::spline::{BsplineSurface, KnotVector, length, minus};
 
 /// What an object is.
 #[derive(Debug, Clone)]
@@ -69,6 +69,9 @@ pub(in super::super::super) struct Model {
     pub(in super::super::super) objects: Vec<PlacedObject>,
 }
 
+/// Points nearer to each other than this part of the size of a surface are one.
+const CLOSED: f64 = 1e-6;
+
 /// Whether these are the first bytes of a 3DM file.
 pub(in super::super::super) fn is_3dm(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
@@ -106,12 +109,7 @@ mod kind {
     pub(super) const EXTRUSION: u32 = 0x4000_0000;
 }
 
-fn object(
-    number: usize,
-    record: &Record<'_>,
-    versions: super::archive::Versions,
-    budget: &mut Budget,
-) -> ModelObject {
+fn object(number: usize, record: &Record<'_>, versions: super::archive::Versions, budget: &mut Budget) -> ModelObject {
     let name = format!("object {}", number + 1);
     let unread = |kind: &str, why: &str| {
         ModelObject::Unread(Unread { line: None, name: name.clone(), kind: kind.to_owned(), why: why.to_owned() })
@@ -125,34 +123,36 @@ fn object(
             _ => ModelObject::Other,
         };
     };
-    match record.kind {
-        kind::CURVE => ModelObject::Curve,
-        kind::MESH => match mesh::read(object, versions) {
+    match object.class {
+        class::MESH => match mesh::read(object, versions) {
             Ok(mesh) => ModelObject::Mesh(mesh),
             Err(why) => unread("ON_Mesh", why),
         },
-        kind::BREP => {
+        class::BREP => {
             let (mut body, mut lost) = (Brep::default(), Vec::new());
             match read_brep(object, versions, (&mut body, &mut lost), budget) {
                 Some(()) => ModelObject::Faces(body, lost.iter().map(|lost| missing(&name, lost)).collect()),
                 None => unread("ON_Brep", "its records cannot be read"),
             }
         }
-        kind::SURFACE => match budget.surface(object) {
-            Some(patch) => ModelObject::Surface(Box::new(ModelSurface { patch, kind: kind_of(object.class) })),
-            None => unread(kind_of(object.class), "its records cannot be read, or nothing bounds it"),
-        },
-        kind::EXTRUSION => {
+        class::EXTRUSION => {
             let mut body = Brep::default();
             match extrusion::read(object, &mut body, budget) {
                 Some(()) => ModelObject::Faces(body, Vec::new()),
                 None => unread("ON_Extrusion", "its records cannot be read, or its ends are cut askew"),
             }
         }
-        kind::SUBDIVISION => unread("ON_SubD", "a subdivision surface is not read: make it NURBS, or a mesh"),
-        kind::INSTANCE => unread("ON_InstanceRef", "an instance of a block is not read: explode it"),
-        _ if object.class == class::MESH => unread("ON_Mesh", "its record is of another kind"),
-        _ => ModelObject::Other,
+        _ => match record.kind {
+            kind::CURVE => ModelObject::Curve,
+            kind::SURFACE => match budget.surface(object) {
+                Some(patch) => ModelObject::Surface(Box::new(ModelSurface { patch, kind: kind_of(object.class) })),
+                None => unread(kind_of(object.class), "its records cannot be read"),
+            },
+            kind::SUBDIVISION => unread("ON_SubD", "a subdivision surface is not read: make it NURBS, or a mesh"),
+            kind::INSTANCE => unread("ON_InstanceRef", "an instance of a block is not read: explode it"),
+            kind::BREP | kind::MESH | kind::EXTRUSION => unread("object of another class", "its class is not known"),
+            _ => ModelObject::Other,
+        },
     }
 }
 
@@ -166,8 +166,29 @@ fn missing(object: &str, lost: &Lost) -> Unread {
 }
 
 impl ModelSurface {
-    /// As a spline; none of surfaces of revolution.
+    /// Whether two opposite sides are one line, or a side is a point.
+    fn is_closed(&self) -> bool {
+        let Patch { surface, ends: [us, vs], .. } = &self.patch;
+        let shares = [0.0, 0.2, 0.5, 0.7, 1.0];
+        let on = |[a, b]: [f64; 2], share: f64| a + share * (b - a);
+        let side = |axis: usize, end: usize| {
+            let uv = |share: f64| if axis == 0 { [us[end], on(*vs, share)] } else { [on(*us, share), vs[end]] };
+            shares.map(|share| surface.at(uv(share))[0])
+        };
+        let size = length(minus(surface.at([us[0], vs[0]])[0], surface.at([on(*us, 0.5), on(*vs, 0.5)])[0]));
+        let near = |a: &[f64; 3], b: &[f64; 3]| length(minus(*a, *b)) <= CLOSED * size;
+        [0, 1].into_iter().any(|axis| {
+            let sides = [side(axis, 0), side(axis, 1)];
+            let is_point = |side: &[[f64; 3]; 5]| side.iter().all(|point| near(point, &side[0]));
+            sides[0].iter().zip(&sides[1]).all(|(a, b)| near(a, b)) || sides.iter().any(is_point)
+        })
+    }
+
+    /// As a spline that nothing closes; none of others and of surfaces of revolution.
     fn spline(&self) -> Option<BsplineSurface<4>> {
+        if self.is_closed() {
+            return None;
+        }
         let [us, vs] = self.patch.ends;
         match &self.patch.surface {
             FaceSurface::Spline(spline) => Some(spline.clone()),
@@ -188,7 +209,8 @@ impl ModelSurface {
 /// The surfaces and faces of objects as one body of a CAD file.
 pub(in super::super::super) fn united(objects: Vec<ModelObject>, unit: Option<f64>) -> CadSurfaces {
     let mut read = CadSurfaces { unit, ..CadSurfaces::default() };
-    let loose = objects.iter().all(|object| matches!(object, ModelObject::Surface(surface) if surface.spline().is_some()));
+    let loose =
+        objects.iter().all(|object| matches!(object, ModelObject::Surface(surface) if surface.spline().is_some()));
     for (number, object) in objects.into_iter().enumerate() {
         match object {
             ModelObject::Faces(body, lost) => {

@@ -81,8 +81,7 @@ impl Budget {
         let [1, _] = data.version()? else { return None };
         let base: [f64; 3] = data.reals()?;
         data.take(48)?;
-        let [first, second] =
-            [self.curve(&data.object()?)?, self.curve(&data.object()?)?].map(|run| as_spline(&run));
+        let [first, second] = [self.curve(&data.object()?)?, self.curve(&data.object()?)?].map(|run| as_spline(&run));
         let (first, second) = (first?, second?);
         if !self.allows(first.points().len().checked_mul(second.points().len())?) {
             return None;

@@ -41,7 +41,8 @@ pub(super) fn shape(model: Model, settings: &Settings, problems: &mut Problems) 
     if !hidden.is_empty() {
         let mut on: Vec<&str> = hidden.iter().map(|placed| layers[placed.layer].name.as_str()).collect();
         on.dedup();
-        let message = format!("left out: {} that the file hides (layers {})", counted(hidden.len(), "object"), some(&on));
+        let message =
+            format!("left out: {} that the file hides (layers {})", counted(hidden.len(), "object"), some(&on));
         let remedy = "Show them in the file, or name their layers with --parts (parts in the TOML beside it)";
         problems.warning("W352", FilePosition::FILE, message, remedy);
     }
