@@ -132,7 +132,7 @@ fn exported_surfaces_float_as_their_hulls_to_a_millionth() {
         let draughts = [0.4, 0.75].map(|share| share * hull.reference_height());
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         let folder = folder(&format!("surfaces-{name}"));
-        for path in files(&folder, &hull, name, &[ExportFormat::Step, ExportFormat::Iges]) {
+        for path in files(&folder, &hull, name, &[ExportFormat::Step, ExportFormat::Iges, ExportFormat::Rhino]) {
             let found = read_hydrostatic_body(&path)
                 .unwrap()
                 .curves_of_form(&draughts, &Conventions::default())
@@ -159,7 +159,8 @@ fn exported_surfaces_float_as_their_hulls_to_a_millionth() {
 fn surfaces_in_millimetres_become_a_table() {
     let hull = config("wigley");
     let settings = ExportSettings { unit: CadUnit::Millimetre, ..ExportSettings::default() };
-    let exported = export(&hull, "wigley", &[ExportFormat::Step, ExportFormat::Iges], &settings).unwrap();
+    let exported =
+        export(&hull, "wigley", &[ExportFormat::Step, ExportFormat::Iges, ExportFormat::Rhino], &settings).unwrap();
     for file in &exported.files {
         let table = read_table(&file.name, &file.contents).unwrap().table;
         assert_eq!(table.stations.len(), 41, "{}", file.name);
@@ -215,7 +216,7 @@ fn the_commands_take_meshes() {
 fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     let hull = config("box");
     let settings = ExportSettings { across: 1, ..ExportSettings::default() };
-    let others = [ExportFormat::Step, ExportFormat::Iges, ExportFormat::Ftm, ExportFormat::Glb];
+    let others = [ExportFormat::Step, ExportFormat::Iges, ExportFormat::Rhino, ExportFormat::Ftm, ExportFormat::Glb];
     let formats = [&MESHES[..], &others, &PANELS].concat();
     let exported = export(&hull, "box", &formats, &settings).unwrap();
     let mut random = Random(7);
@@ -243,7 +244,8 @@ fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     }
     for length in [0, 1, 83, 84, 85, 134, 500, 5000] {
         let bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
-        for name in ["a.stl", "a.obj", "a.igs", "a.step", "a.ftm", "a.fbm", "a.glb", "a.gdf", "a.pnl", "a.mar"] {
+        for name in ["a.stl", "a.obj", "a.igs", "a.3dm", "a.step", "a.ftm", "a.fbm", "a.glb", "a.gdf", "a.pnl", "a.mar"]
+        {
             sound(name, &bytes);
         }
     }

@@ -53,8 +53,8 @@ fn files_are_not_overwritten_unasked() {
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(stderr(&wrong).contains(
-        "step, iges, dxf, stl, stl-ascii, obj, ply, glb, 3mf, vtk, msh, gdf, nemoh, pnl, ghs, britfair, pias, pdstrip, freeship, delftship, \
-         ftm, michlet, csv, xlsx, dxf-plan"
+        "step, iges, 3dm, dxf, stl, stl-ascii, obj, ply, glb, 3mf, vtk, msh, gdf, nemoh, pnl, ghs, britfair, pias, pdstrip, freeship, \
+         delftship, ftm, michlet, csv, xlsx, dxf-plan"
     ));
 }
 

@@ -57,6 +57,7 @@ mod report;
 mod report_browser;
 mod report_figures;
 mod resistance;
+mod rhino;
 mod sections;
 mod support;
 mod suspects;

@@ -6,7 +6,7 @@ use loftsman::internals::exchange::{read_body, read_subdivision, write_ftm};
 
 const NAMES: [&str; 20] = [
     "a.stl", "a.obj", "a.igs", "a.step", "a.fbm", "a.ftm", "a.glb", "a.gdf", "a.pnl", "a.mar", "a.ply", "a.off", "a.vtk",
-    "a.vtu", "a.vtp", "a.msh", "a.3mf", "a.hst", "a.gltf", "a.dxf",
+    "a.vtu", "a.vtp", "a.msh", "a.3mf", "a.hst", "a.gltf", "a.dxf", "a.3dm",
 ];
 
 fuzz_target!(|data: &[u8]| {

@@ -68,7 +68,7 @@ fn known_ending(output: &Path, table: Option<&Path>) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::Usage(format!(
-        "the ending of {} says no format; known are .csv, .xlsx, .step, .stp, .igs, .iges, .dxf, .stl, .obj, .ply, .glb, .3mf, .vtk, .msh, .gdf, .mar, .pnl, .gf, \
+        "the ending of {} says no format; known are .csv, .xlsx, .step, .stp, .igs, .iges, .3dm, .dxf, .stl, .obj, .ply, .glb, .3mf, .vtk, .msh, .gdf, .mar, .pnl, .gf, \
          .bri, .ftm, .mlt; --format says another",
         output.display()
     )))

@@ -18,14 +18,14 @@ use crate::report::{
 pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
-    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, ply, glb, 3mf, vtk,
+    /// Formats, with commas between them: step, iges, 3dm, dxf, stl, stl-ascii, obj, ply, glb, 3mf, vtk,
     /// msh, gdf, nemoh, pnl, ghs, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required_unless_present = "output")]
     format: Vec<ExportFormat>,
     /// Folder for the files, or one file whose ending says the format, as hull.step [default: out/<name of the input>]
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
-    /// Unit of STEP, IGES, DXF and meshes: m or mm; GLB is in metres always
+    /// Unit of STEP, IGES, 3DM, DXF and meshes: m or mm; GLB is in metres always
     #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
     unit: CadUnit,
     #[command(flatten)]
@@ -74,7 +74,7 @@ pub(super) struct Arguments {
 
 const AFTER: &str = "\
 step: AP214, a closed solid of untrimmed B-spline faces with the exact net and knots of the hull; iges: 5.3, the same solid \
-as entity 186 of entities 128. Where the deck at side or the \
+as entity 186 of entities 128; 3dm: Rhino 5 and later, the same solid as one closed polysurface on the layer hull. Where the deck at side or the \
 centreplane cuts the surface, the faces follow it within a distance that the page says.
 dxf: polylines in space on the layers STATIONS, WATERLINES, BUTTOCKS, STEM, STERN, KEEL, SHEER and KNUCKLES; dxf-plan: the three views of the lines plan in one \
 plane at full size, on layers BODY_..., PROFILE_... and PLAN_... .

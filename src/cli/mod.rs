@@ -44,7 +44,7 @@ Tables of offsets, recognised by content: CSV and TSV (matrix of stations and wa
 XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
 DELFTship, input of Michlet, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
 say what it leaves open (units, axes, Lpp, B, T).
-Bodies: meshes as STL (binary, ASCII), OBJ, PLY, OFF, GLB, glTF, 3MF, VTK and gmsh, panels as GDF, NEMOH (.mar, .dat), PNL and HydroStar, closed or without deck, transom and flat bow; the faces of IGES and STEP \
+Bodies: meshes as STL (binary, ASCII), OBJ, PLY, OFF, GLB, glTF, 3MF, VTK and gmsh, panels as GDF, NEMOH (.mar, .dat), PNL and HydroStar, closed or without deck, transom and flat bow; the faces of IGES, STEP and 3DM \
 files, trimmed or not; faces of DXF by layers, or its stations and waterlines in space; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, body (\"half\" or \"whole\"), x_origin \
 and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 
@@ -92,7 +92,7 @@ enum Command {
     Compare(compare::Arguments),
     /// Table of offsets of a hull at any stations and waterlines
     Offsets(offsets::Arguments),
-    /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB, panels as GDF, NEMOH, PNL, sections
+    /// Write a hull for other programs: STEP, IGES, 3DM, DXF, STL, OBJ, GLB, panels as GDF, NEMOH, PNL, sections
     Export(export::Arguments),
     /// Read a table of offsets and write it in its own notation and layout, or in others
     Convert(convert::Arguments),
@@ -135,7 +135,7 @@ struct BodyFlags {
     /// Whether a mesh or a CAD file has one side of the hull (half) or all of it (whole)
     #[arg(long, value_name = "PART", value_parser = ["half", "whole"])]
     body: Option<String>,
-    /// Parts of a body that count, with commas between them: groups of OBJ, solids of STL and layers of FREE!ship by name, shells by number
+    /// Parts of a body that count, with commas between them: groups of OBJ, solids of STL, layers of 3DM and FREE!ship by name, shells by number
     #[arg(long, value_name = "PARTS")]
     parts: Option<String>,
     /// Distance between the numbers of stations of a table

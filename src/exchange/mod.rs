@@ -29,7 +29,7 @@ mod summary;
 mod table;
 
 pub use blend::{BlendPart, BlendReport, blend_json};
-pub use cad::{CadUnit, DxfLine, DxfVersion, write_dxf, write_iges, write_step};
+pub use cad::{CadUnit, DxfLine, DxfVersion, write_3dm, write_dxf, write_iges, write_step};
 pub use compare::{CompareFile, ComparedValue, compare_csv, compare_json, per_cent};
 pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
 pub use derive::{DeriveReport, DerivedTarget, WaveReport, derive_json};

@@ -247,15 +247,16 @@ impl Brep {
     fn whole(&self, face: &BrepFace, size: f64) -> Option<BsplineSurface<4>> {
         let (FaceSurface::Spline(surface), [edges]) = (&face.surface, &face.loops[..]) else { return None };
         let chart = Chart::new(&face.surface, size);
+        // The two sides of a seam would be cut apart.
+        if chart.period.iter().any(Option::is_some) {
+            return None;
+        }
         let ends = [0, 1].map(|k| chart.domain[k].unwrap_or([0.0, 1.0]));
         let at_end = |uv: [f64; 2]| {
             [0, 1].iter().any(|&k: &usize| {
                 let [a, b] = ends[k];
                 let slack = AT_END * (b - a);
-                let t = match chart.period[k] {
-                    Some(period) => (uv[k] - a).rem_euclid(period),
-                    None => uv[k] - a,
-                };
+                let t = uv[k] - a;
                 t <= slack || t >= b - a - slack
             })
         };

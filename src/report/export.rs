@@ -7,9 +7,10 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
-    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_britfair, write_delftship, write_dxf, write_freeship,
-    write_ftm, write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_msh, write_nemoh, write_obj,
-    write_pdstrip, write_pias, write_ply, write_pnl, write_step, write_stl, write_stl_ascii, write_threemf, write_vtk,
+    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_3dm, write_britfair, write_delftship, write_dxf,
+    write_freeship, write_ftm, write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_msh, write_nemoh,
+    write_obj, write_pdstrip, write_pias, write_ply, write_pnl, write_step, write_stl, write_stl_ascii, write_threemf,
+    write_vtk,
 };
 use crate::hull::{
     Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, SharpCorner,
@@ -27,6 +28,8 @@ pub enum ExportFormat {
     Step,
     /// IGES 5.3, the same solid.
     Iges,
+    /// 3DM of Rhino 5, the same solid.
+    Rhino,
     /// DXF: the curves of the lines plan in space.
     Dxf,
     /// Binary STL.
@@ -77,9 +80,10 @@ pub enum ExportFormat {
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 26] = [
         Self::Step,
         Self::Iges,
+        Self::Rhino,
         Self::Dxf,
         Self::Stl,
         Self::StlAscii,
@@ -111,6 +115,7 @@ impl ExportFormat {
         match self {
             Self::Step => "step",
             Self::Iges => "iges",
+            Self::Rhino => "3dm",
             Self::Dxf => "dxf",
             Self::Stl => "stl",
             Self::StlAscii => "stl-ascii",
@@ -142,6 +147,7 @@ impl ExportFormat {
         match self {
             Self::Step => ".step",
             Self::Iges => ".igs",
+            Self::Rhino => ".3dm",
             Self::Dxf => ".dxf",
             Self::Stl => ".stl",
             Self::StlAscii => "-ascii.stl",
@@ -193,6 +199,10 @@ impl ExportFormat {
     /// Whether the file goes up to a waterline or names one, so that it needs a draught.
     pub(super) const fn needs_draught(self) -> bool {
         self.is_panels() || matches!(self, Self::Pdstrip | Self::Michlet | Self::Delftship)
+    }
+
+    const fn is_solid(self) -> bool {
+        matches!(self, Self::Step | Self::Iges | Self::Rhino)
     }
 
     const fn is_panels(self) -> bool {
@@ -457,7 +467,7 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
     let least = LEAST_DEVIATION * breadth;
     if let Some(deviation) = settings.deviation.filter(|deviation| *deviation < least) {
         return Err(Failure::Usage(format!(
-            "--deviation {deviation} m: expected at least {least:.1e} m, a millionth of the breadth; step and iges have the surface itself"
+            "--deviation {deviation} m: expected at least {least:.1e} m, a millionth of the breadth; step, iges and 3dm have the surface itself"
         )));
     }
     // What is printed is taken.
@@ -543,7 +553,7 @@ pub fn export(
     } else {
         None
     };
-    let solid = if formats.iter().any(|format| matches!(format, ExportFormat::Step | ExportFormat::Iges)) {
+    let solid = if formats.iter().any(|format| format.is_solid()) {
         let solid = Solid::new(hull).map_err(|error| Failure::Internal(format!("solid of the hull: {error}")))?;
         if !solid.is_closed() {
             return Err(Failure::Internal("the faces of the solid do not share their edges".to_owned()));
@@ -629,6 +639,9 @@ pub fn export(
             (format, Some(mesh), _) if format.is_mesh() => mesh_file(mesh, title, format, settings.unit)?,
             (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
+            (ExportFormat::Rhino, _, Some(solid)) => {
+                write_3dm(solid, title, settings.unit).map_err(Failure::Internal)?
+            }
             (ExportFormat::Dxf, ..) => write_dxf(
                 &lines_in_space(hull, settings.stations, deviation, settings.datum),
                 settings.unit,

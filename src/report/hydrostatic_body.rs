@@ -192,7 +192,7 @@ fn of_meshes(
     CurvesOfForm::of_triangles(meshes.first().unwrap_or(&none), meshes.get(1), particulars, draughts, conventions)
 }
 
-/// A mesh (STL, OBJ, GLB), panels (GDF, NEMOH, PNL), the surfaces of a CAD file (STEP, IGES) or a control net
+/// A mesh (STL, OBJ, GLB), panels (GDF, NEMOH, PNL), the surfaces of a CAD file (STEP, IGES, 3DM) or a control net
 /// (FREE!ship) as the body that it is, and whatever else is a hull as that.
 ///
 /// # Errors

@@ -48,8 +48,10 @@ const LARGEST_BODY: u64 = 1 << 30;
 const CONTENT: usize = 1 << 16;
 
 /// Endings of meshes and CAD files.
-const BODIES: [&str; 16] =
-    ["stl", "obj", "ply", "off", "glb", "gltf", "3mf", "vtk", "vtp", "vtu", "msh", "hst", "step", "stp", "igs", "iges"];
+const BODIES: [&str; 17] = [
+    "3dm", "stl", "obj", "ply", "off", "glb", "gltf", "3mf", "vtk", "vtp", "vtu", "msh", "hst", "step", "stp", "igs",
+    "iges",
+];
 
 /// Whether a path is standard input: `-`.
 fn is_standard_input(path: &Path) -> bool {

@@ -2,6 +2,7 @@
 
 mod dxf;
 mod iges;
+mod rhino;
 mod step;
 mod surfaces;
 
@@ -9,6 +10,8 @@ pub(super) use dxf::{Drawing, is_dxf, read_dxf};
 pub use dxf::{DxfLine, DxfVersion, write_dxf};
 pub use iges::write_iges;
 pub(super) use iges::{is_iges, read_iges};
+pub use rhino::write_3dm;
+pub(super) use rhino::{Model, ModelObject, PlacedObject, is_3dm, read_3dm, united};
 pub use step::write_step;
 pub(super) use step::{is_step, read_step};
 pub(super) use surfaces::{CadCurve, CadSurfaces, Unread};

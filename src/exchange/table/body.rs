@@ -8,11 +8,14 @@
 
 mod cad;
 pub(super) mod frame;
+mod model;
 pub(super) mod parts;
 
 use std::f64::consts::PI;
 
-use super::super::cad::{CadSurfaces, Drawing, is_dxf, is_iges, is_step, read_dxf, read_iges, read_step};
+use super::super::cad::{
+    CadSurfaces, Drawing, Model, is_3dm, is_dxf, is_iges, is_step, read_3dm, read_dxf, read_iges, read_step,
+};
 use super::super::fault::RecordFault;
 #[cfg(feature = "packages")]
 use super::super::mesh::{PackagedMesh, is_threemf, is_vtk_xml, read_threemf, read_vtk_xml};
@@ -75,6 +78,8 @@ enum Shape {
     /// In parts with names.
     Named(Vec<NamedMesh>, Given),
     Surfaces(CadSurfaces),
+    /// Objects on layers.
+    Model(Model),
     Net(SubdivisionProject),
     /// Faces by layers, or curves.
     Drawn(Drawing),
@@ -128,6 +133,7 @@ const FORMATS: &[BodyFormat] = &[
     BodyFormat::new("STEP", &[".step", ".stp"], is_step, |bytes| read_step(bytes).map(Shape::Surfaces)),
     BodyFormat::new("IGES", &[".iges", ".igs"], is_iges, |bytes| read_iges(bytes).map(Shape::Surfaces)),
     BodyFormat::new("DXF", &[".dxf"], is_dxf, |bytes| read_dxf(bytes).map(Shape::Drawn)),
+    BodyFormat::new("3DM", &[".3dm"], is_3dm, |bytes| read_3dm(bytes).map(Shape::Model)),
     BodyFormat::new("PLY", &[".ply"], is_ply, |bytes| read_ply(bytes).map(plain)),
     BodyFormat::new("OFF", &[], is_off, |bytes| read_off(bytes).map(plain)),
     BodyFormat::new("gmsh", &[".msh"], is_msh, |bytes| read_msh(bytes).map(plain)),
@@ -161,7 +167,7 @@ fn format(name: &str, bytes: &[u8]) -> Option<&'static BodyFormat> {
 }
 
 /// Reads a body: a mesh (STL, OBJ, PLY, OFF, GLB, glTF, 3MF, VTK, gmsh), panels (GDF, PNL, NEMOH, HydroStar), the
-/// surfaces of a CAD file (STEP, IGES), the faces of a drawing (DXF) or a control net (FREE!ship), by its content or its name, with the conventions of
+/// surfaces of a CAD file (STEP, IGES, 3DM), the faces of a drawing (DXF) or a control net (FREE!ship), by its content or its name, with the conventions of
 /// the TOML beside it, given by its name and its text, and of others, each over those before it; none when it is no such
 /// file.
 pub fn read_body<'a>(
@@ -206,6 +212,7 @@ pub fn read_body<'a>(
             }
             Shape::Net(project)
         }
+        Shape::Model(model) => model::shape(model, &settings, &mut problems),
         other => {
             let is_nothing = matches!(other, Shape::Nothing);
             parts::chosen_names(&[], choice.filter(|_| !is_nothing), &mut problems);
@@ -214,7 +221,7 @@ pub fn read_body<'a>(
     };
     let mut deviation = 0.0;
     let meshes = match shape {
-        Shape::Named(..) | Shape::Drawn(_) | Shape::Nothing => Vec::new(),
+        Shape::Named(..) | Shape::Drawn(_) | Shape::Model(_) | Shape::Nothing => Vec::new(),
         Shape::Triangles(mesh, given) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));

@@ -12,13 +12,13 @@ const MOST_LISTED: usize = 200_000;
 /// A part of a file with its name.
 pub(in super::super::super) type NamedMesh = (String, TriangleMesh);
 
-fn joined(meshes: impl Iterator<Item = TriangleMesh>) -> TriangleMesh {
+pub(super) fn joined(meshes: impl Iterator<Item = TriangleMesh>) -> TriangleMesh {
     let all: Vec<TriangleMesh> = meshes.collect();
     TriangleMesh::from_corners(all.iter().flat_map(TriangleMesh::corners))
 }
 
 /// The first names, and how many more there are.
-fn some(names: &[&str]) -> String {
+pub(super) fn some(names: &[&str]) -> String {
     let more = if names.len() > LISTED { format!(" and {} more", names.len() - LISTED) } else { String::new() };
     names[..names.len().min(LISTED)].join(", ") + &more
 }
@@ -32,6 +32,11 @@ fn names(choice: Option<&[PartChoice]>) -> Vec<&str> {
             PartChoice::Number(_) => None,
         })
         .collect()
+}
+
+/// Whether parts are chosen by their names.
+pub(super) fn is_by_name(choice: Option<&[PartChoice]>) -> bool {
+    !names(choice).is_empty()
 }
 
 /// Which of the names a file has are chosen; all where none is. A name that it has not is a problem.

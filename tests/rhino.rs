@@ -1,0 +1,159 @@
+//! 3DM files of rhino3dm 8.35 in archives of the versions 2 to 8, by closed forms and the volumes of their own triangles.
+
+use std::f64::consts::PI;
+use std::fs;
+
+use loftsman::internals::exchange::{CadUnit, ReadBody, TableProblem, read_body, write_3dm};
+use loftsman::internals::hull::Solid;
+use loftsman::internals::hydrostatics::Conventions;
+use loftsman::internals::report::{read_hydrostatic_body, read_source};
+
+use crate::random::Random;
+use crate::support::carried;
+
+/// The volume of a mesh of a Wigley hull, 100 x 10 x 6.25 m, by its 420 faces cut along their first diagonals.
+const WIGLEY: f64 = 2_759.473_903_944_809;
+
+fn bytes(name: &str) -> Vec<u8> {
+    fs::read(carried("tests/rhino").join(format!("{name}.3dm"))).unwrap()
+}
+
+fn read(name: &str, beside: &str) -> Result<ReadBody, Vec<TableProblem>> {
+    // The content tells the format, whatever the ending.
+    read_body("hull.dat", &bytes(name), [("hull.toml", beside)]).unwrap_or_else(|| panic!("{name} is no body"))
+}
+
+/// The volume of a mesh \[m3\].
+fn volume(body: &ReadBody) -> f64 {
+    body.meshes[0].report().volume
+}
+
+fn said(problems: &[TableProblem]) -> String {
+    problems.iter().map(|p| format!("{} {} {}", p.code, p.message, p.remedy)).collect::<Vec<_>>().join("; ")
+}
+
+/// Displacements, of halves where the volume is that of a half.
+#[test]
+fn bodies_of_all_versions_displace_what_they_should() {
+    let foot: f64 = 0.3048;
+    let ball = 250.0 / 3.0 * PI;
+    // File, draught [m], volume [m3].
+    let cases = [
+        ("box-v3", 2.0, 1200.0),
+        ("cylinder-v4", 20.0, 180.0 * PI),
+        ("ball-v8", 0.0, ball),
+        // One rational spline whose sides meet in a seam, and end in two poles.
+        ("ball-nurbs-v2", 0.0, ball),
+        ("extruded-v7", 20.0, 180.0 * PI),
+        ("box-ft-v2", 2.0 * foot, 1200.0 * foot.powi(3)),
+    ];
+    for (name, draught, volume) in cases {
+        let body = read_hydrostatic_body(&carried("tests/rhino").join(format!("{name}.3dm"))).unwrap();
+        let rows = body.curves_of_form(&[draught], &Conventions::default()).unwrap().0.rows;
+        let found = rows[0].displacement_volume;
+        assert!((found - volume).abs() <= 1e-6 * volume, "{name}: {found}, expected {volume}");
+    }
+    // Vertices of 64 bits beside the mesh, and in it.
+    for name in ["wigley-v5", "wigley-v8"] {
+        let found = volume(&read(name, "").unwrap());
+        assert!((found - WIGLEY).abs() <= 1e-12 * WIGLEY, "{name}: {found}");
+    }
+}
+
+/// B L T 4/9 below the design waterline of a Wigley hull, of which one side is given in inches.
+#[test]
+fn a_half_in_inches_is_mirrored() {
+    let body = read("wigley-half-inch-v8", "").unwrap();
+    let table = body.table().unwrap().table;
+    let widest = table.stations.iter().flat_map(|s| s.outlines.iter().flatten()).map(|p| p.y).fold(0.0, f64::max);
+    assert!((widest - 5.0).abs() < 1e-3, "{widest}");
+    let ends = [table.stations[0].station.x, table.stations[40].station.x];
+    assert!(ends[0].abs() < 1e-2 && (ends[1] - 100.0).abs() < 1e-2, "{ends:?}");
+}
+
+#[test]
+fn layers_are_parts_and_hidden_ones_are_left_out() {
+    let body = read("layers-v8", "").unwrap();
+    assert!((volume(&body) - 4800.0).abs() < 1e-6, "{}", volume(&body));
+    let notes = said(&body.notes);
+    assert!(notes.contains("W352 left out: 1 object that the file hides (layers yard::dock)"), "{notes}");
+    assert!(notes.contains("not part of the body: 1 curve"), "{notes}");
+    let named = |names: &str| read("layers-v8", &format!("[table]\nparts = {names}\n"));
+    for (names, volume_of_it) in [("\"hull\"", 2400.0), ("\"TANK\"", 2400.0), ("\"yard::dock\"", 7200.0)] {
+        let body = named(names).unwrap_or_else(|problems| panic!("{names}: {}", said(&problems)));
+        assert!((volume(&body) - volume_of_it).abs() < 1e-6, "{names}: {}", volume(&body));
+    }
+    let wrong = said(&named("\"keel\"").unwrap_err());
+    assert!(wrong.contains("E311 parts: no part 'keel' Known are hull, tank, yard::dock"), "{wrong}");
+}
+
+#[test]
+fn what_is_not_read_is_refused_by_its_kind() {
+    let refused = |name: &str, beside: &str| said(&read(name, beside).unwrap_err());
+    let cases = [
+        ("subd-v8", "E352 1 of 1 object cannot be read (1 ON_SubD), and without them the body is not whole"),
+        ("block-v8", "E352 1 of 1 object cannot be read (1 ON_InstanceRef)"),
+        ("both-v5", "E352 1 object of a mesh beside 1 object of surfaces"),
+        ("no-unit-v4", "E351 the file states no unit of length"),
+    ];
+    for (name, wanted) in cases {
+        let found = refused(name, "");
+        assert!(found.contains(wanted), "{name}: {found}");
+    }
+    let chosen = read("both-v5", "[table]\nparts = \"copy\"\n").unwrap();
+    assert!((volume(&chosen) - 2400.0).abs() < 1e-6);
+    let in_feet = read("no-unit-v4", "[table]\nunits = \"ft\"\n").unwrap();
+    assert!((volume(&in_feet) - 67.960_431_820_8).abs() < 1e-6, "{}", volume(&in_feet));
+    let of = |bytes: &[u8]| said(&read_body("a.3dm", bytes, None).unwrap().unwrap_err());
+    assert!(of(b"3D Geometry File Format        1").contains("E350 an archive of version 1"));
+    assert!(of(b"3D Geometry File Format       50").contains("E350 the file is cut off"));
+    assert!(of(b"3D Geometry File Format     none").contains("states no version"));
+    let whole = bytes("box-v3");
+    assert!(of(&whole[..whole.len() / 2]).contains("E350 the file is cut off or damaged"));
+}
+
+/// An array of a mesh with a bit turned over: its CRC tells.
+#[test]
+fn a_damaged_mesh_is_not_read() {
+    let mut bytes = bytes("box-ft-v2");
+    let vertex: Vec<u8> = 60_f32.to_le_bytes().to_vec();
+    let places: Vec<usize> = (0..bytes.len() - 4).filter(|&k| bytes[k..k + 4] == vertex[..]).collect();
+    // The first is in the box around it.
+    bytes[places[2]] ^= 1;
+    let found = said(&read_body("a.3dm", &bytes, None).unwrap().unwrap_err());
+    assert!(found.contains("its CRC is another one"), "{found}");
+}
+
+#[test]
+fn random_changes_never_stop_the_reader() {
+    let mut random = Random(11);
+    for name in ["box-ft-v2", "layers-v8", "box-v3"] {
+        let whole = bytes(name);
+        for _ in 0..4 {
+            let mut changed = whole.clone();
+            for _ in 0..=random.below(4) {
+                let at = random.below(changed.len());
+                changed[at] = random.next() as u8;
+            }
+            if let Some(Ok(body)) = read_body("a.3dm", &changed, None) {
+                assert!(body.meshes.iter().flat_map(|mesh| mesh.vertices.iter().flatten()).all(|c| c.is_finite()));
+            }
+        }
+    }
+}
+
+/// The same hull gives the same bytes, in a layer that is a part of the file.
+#[test]
+fn a_written_hull_is_the_same_again() {
+    for name in ["box", "fishing-vessel", "wigley", "yacht"] {
+        let hull = read_source(&carried("configs").join(format!("{name}.toml"))).unwrap().hull;
+        let solid = Solid::new(&hull).unwrap();
+        for unit in [CadUnit::Metre, CadUnit::Millimetre] {
+            let bytes = write_3dm(&solid, name, unit).unwrap();
+            assert!(bytes.starts_with(b"3D Geometry File Format       50"));
+            assert_eq!(bytes, write_3dm(&solid, name, unit).unwrap());
+            let length = u64::from_le_bytes(bytes[bytes.len() - 8..].try_into().unwrap());
+            assert_eq!(length, bytes.len() as u64);
+        }
+    }
+}
