@@ -57,7 +57,8 @@ fn on_one_profile_volumes_moments_and_areas_are_linear() {
         ("C_WP", of(Quantity::WaterplaneCoefficient, &half.hull), mixed(&|h| of(Quantity::WaterplaneCoefficient, h))),
         ("C_M", of(Quantity::MidshipCoefficient, &half.hull), mixed(&|h| of(Quantity::MidshipCoefficient, h))),
     ] {
-        assert!((found / expected - 1.0).abs() < 1e-12, "{name} {found} {expected}");
+        // The daughter stands on a chart of its own, and is refitted.
+        assert!((found / expected - 1.0).abs() < 1e-7, "{name} {found} {expected}");
     }
     for x in [3.0, 20.0, 47.0, 81.0, 96.5] {
         for z in [0.4, 2.0, 4.4, 6.1] {
@@ -165,8 +166,9 @@ fn what_cannot_be_blended_is_refused_with_numbers() {
             "2 hulls with 0 free dimensions meet 1",
         ),
         (vec![&*wigley, &boxy], vec!["--displacement", "9000000 t"], "E421", 2, "C_B"),
+        (vec![&*wigley, &boxy], vec!["--cb", "0.6", "--beam", "11", "--free", "beam"], "E423", 2, "free and given"),
         (vec![&*wigley, &boxy], vec!["--km", "40"], "E420", 4, "can be"),
-        (vec![&*wigley, &boxy], vec!["--cb", "0.3"], "E420", 4, "DISPVOL can be 2777.7"),
+        (vec![&*wigley, &boxy], vec!["--cb", "0.3"], "E420", 4, "C_B can be 0.44445 to 1.00000"),
     ] {
         let (status, page, message) = refused(&hulls, &options);
         assert!(
@@ -207,11 +209,33 @@ fn the_files_of_a_blend() {
     assert!(status == 0 && table.contains("DISPVOL"));
 }
 
-/// What the warnings are: a hull that moves on its way to the chart, and more inflections than the hulls have.
+/// The ends of an interval are values of blends that meet the other targets, with the breadth free as well.
 #[test]
-fn warnings_of_a_blend_have_codes() {
-    for (code, words) in [("W421", "moves by"), ("E424", "no common chart"), ("E423", "sum to 1")] {
+fn the_ends_of_an_interval_are_feasible() {
+    let hulls = [design("wigley"), daughter("wigley", &[(Quantity::Volume, 2900.0)])];
+    let request = |km: f64| BlendRequest {
+        targets: vec![(Quantity::Volume, 2850.0), (Quantity::Km, km)],
+        free: vec![Dimension::Breadth],
+        ..BlendRequest::default()
+    };
+    let conventions = Conventions::default();
+    let first = blend(&hulls, &request(5.25), &conventions, true).unwrap();
+    let interval =
+        first.targets.iter().find(|target| target.target.quantity == Quantity::Km).unwrap().interval.unwrap();
+    assert!(interval.high > interval.low + 1e-3, "{interval:?}");
+    let inside = 1e-4 * (interval.high - interval.low);
+    for km in [interval.low + inside, interval.high - inside] {
+        let found =
+            blend(&hulls, &request(km), &conventions, false).unwrap_or_else(|r| panic!("{km} {interval:?} {r:?}"));
+        assert!(found.targets.iter().all(|t| (t.achieved / t.target.value - 1.0).abs() < 1e-10));
+    }
+}
+
+/// Each code of this command is explained.
+#[test]
+fn codes_of_a_blend_are_explained() {
+    for code in ["W421", "E424", "E423"] {
         let (status, page, _) = run(&["explain", code]);
-        assert!(status == 0 && page.contains(code), "{code} {words} {page}");
+        assert!(status == 0 && page.contains(code), "{code} {page}");
     }
 }

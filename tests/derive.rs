@@ -331,7 +331,7 @@ fn the_wave_resistance_falls_as_its_weight_rises() {
 fn the_wave_resistance_of_a_raked_hull_falls_within_a_tolerance() {
     let options = [
         ("--wave-resistance", "wave_resistance", "0.28".to_owned()),
-        ("--wave-weight", "wave_weight", "5".to_owned()),
+        ("--wave-weight", "wave_weight", "30000".to_owned()),
         ("--within", "within", "40 mm".to_owned()),
     ];
     let outputs = derived("container-ship", &options);
@@ -352,9 +352,9 @@ fn a_wave_resistance_needs_the_nearest_hull_and_level_waterlines() {
         (vec!["--wave-resistance", "3:5:1"], "E124"),
         (vec!["--wave-resistance", "0.3", "--wave-weight", "-1"], "E124"),
     ] {
-        let (status, page, message) = run(&[&["derive", &*parent], &options[..], &["-o", &out]].concat());
+        let (status, page, message) = run(&[&[&*parent], &options[..], &["-o", &out]].concat());
         assert!(status == 2 && message.contains(code), "{options:?} {status} {page} {message}");
     }
-    let (status, page, _) = run(&["explain", "E425"]);
-    assert!(status == 0 && page.contains("quadratic form"));
+    let page = stdout(&program(&["explain", "E425"]));
+    assert!(page.contains("quadratic form"), "{page}");
 }

@@ -113,12 +113,16 @@ fn what_holds_no_hull_is_refused() {
         ),
         ("0\nSPLINE\n71\n3\n40\n0\n10\n0\n20\n0\n30\n0\n", "E350"),
         ("0\nINSERT\n2\nNONE\n70\n32000\n71\n32000\n", "no faces and no curves"),
+        ("0\nPOLYLINE\n70\n16\n71\n1000000000000\n72\n0\n0\nSEQEND\n", "no faces and no curves"),
+        ("0\nHELIX\n10\n0\n40\n0\n41\n1\n", "no faces and no curves; there are 1 of HELIX"),
         ("0\nTEXT\n1\nhull\n0\nACAD_PROXY_ENTITY\n", "no faces and no curves; there are 1 of ACAD_PROXY_ENTITY"),
     ];
     for (body, expected) in cases {
         let found = of("a.dxf", entities(body).as_bytes());
         assert!(found.contains(expected), "{body}: {found}");
     }
+    let unseen = of("a.dxf", entities("0\nPOLYLINE\n60\n1\n0\nVERTEX\n10\n0\n0\nSEQEND\n").as_bytes());
+    assert!(unseen.contains("no faces and no curves") && !unseen.contains("VERTEX"), "{unseen}");
     let line = entities("0\nLINE\n8\n0\n10\n0\n20\n0\n30\n0\n11\n1\n21\n1\n31\n1\n");
     let cut = of("a.dxf", &line.as_bytes()[..line.len() - 16]);
     assert!(cut.contains("ends within the section ENTITIES"), "{cut}");
@@ -155,4 +159,90 @@ fn our_own_plan_is_refused() {
     let plan = export(&hull, "a", &[ExportFormat::DxfPlan], &ExportSettings::default()).unwrap().files.remove(0);
     let faults = read_table(&plan.name, &plan.contents).unwrap_err();
     assert!(faults.iter().any(|fault| fault.code == "E328" && fault.message.contains("views of a drawing")));
+}
+
+/// Entities of 3D polylines, each on its layer.
+fn polylines(curves: &[(&str, Vec<[f64; 3]>)]) -> String {
+    let mut text = String::new();
+    for (layer, points) in curves {
+        text.push_str(&format!("0\nPOLYLINE\n8\n{layer}\n70\n8\n"));
+        for [x, y, z] in points {
+            text.push_str(&format!("0\nVERTEX\n8\n{layer}\n10\n{x:?}\n20\n{y:?}\n30\n{z:?}\n"));
+        }
+        text.push_str("0\nSEQEND\n");
+    }
+    text
+}
+
+fn drawing(entities: &str) -> String {
+    format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n")
+}
+
+/// Eleven sections from the keel to a height \[m\].
+fn sections(height: f64) -> Vec<(&'static str, Vec<[f64; 3]>)> {
+    let section = |x: f64| vec![[x, 0.0, 0.0], [x, 1.5, 0.2], [x, 2.0, 0.5 * height], [x, 2.0, height]];
+    (0..11).map(|k| ("SECT", section(2.0 * f64::from(k)))).collect()
+}
+
+#[test]
+fn layers_of_few_sections_go_on_from_the_others() {
+    let mut curves = sections(1.0);
+    for k in 3..8 {
+        let x = 2.0 * f64::from(k);
+        curves.push(("TOP", vec![[x, 2.0, 3.0], [x, 2.0, 2.0], [x, 2.0, 1.0]]));
+    }
+    for x in [4.0, 6.0] {
+        curves.push(("FLOOR", vec![[x, 0.2, 0.4], [x, 1.0, 0.4]]));
+    }
+    let read = read_table("a.dxf", drawing(&polylines(&curves)).as_bytes()).unwrap_or_else(|e| panic!("{}", said(&e)));
+    let high = read.table.stations.iter().filter(|s| s.outlines.iter().flatten().any(|p| p.z > 2.9));
+    assert_eq!(high.count(), 5, "{}", said(&read.notes));
+    let notes = said(&read.notes);
+    assert!(notes.contains("W332 a.dxf: left out: 2 curves, on layers of few sections (FLOOR 2)"), "{notes}");
+}
+
+#[test]
+fn curves_beside_each_other_are_named() {
+    let mut curves = sections(3.0);
+    for k in 0..11 {
+        let x = 2.0 * f64::from(k);
+        curves.push(("GRID", vec![[x, 0.0, 1.0], [x, 4.0, 1.0]]));
+    }
+    let notes = match read_table("a.dxf", drawing(&polylines(&curves)).as_bytes()) {
+        Ok(read) => said(&read.notes),
+        Err(faults) => said(&faults),
+    };
+    assert!(notes.contains("curves beside each other at one height") && notes.contains("GRID, SECT"), "{notes}");
+}
+
+#[test]
+fn solids_beside_curves_or_faces_are_refused() {
+    let solid = "0\n3DSOLID\n8\nSOLIDS\n1\nxx\n0\nREGION\n8\nSOLIDS\n";
+    let text = drawing(&(polylines(&sections(3.0)) + solid));
+    let faults = said(&read_table("a.dxf", text.as_bytes()).unwrap_err());
+    assert!(faults.contains("E352") && faults.contains("1 of 3DSOLID, 1 of REGION: data of ACIS"), "{faults}");
+    let chosen = [("a.toml", "[table]\nunits = \"m\"\nparts = \"sect\"\n")];
+    let read = read_table_with("a.dxf", text.as_bytes(), chosen).unwrap_or_else(|e| panic!("{}", said(&e)));
+    assert_eq!(read.table.stations.len(), 11);
+    let face =
+        "0\n3DFACE\n8\nHULL\n10\n0\n20\n0\n30\n0\n11\n9\n21\n0\n31\n0\n12\n9\n22\n2\n32\n1\n13\n9\n23\n2\n33\n1\n";
+    let faults = said(&read_table("a.dxf", drawing(&format!("{face}{solid}")).as_bytes()).unwrap_err());
+    assert!(faults.contains("E350") && faults.contains("1 of 3DSOLID, 1 of REGION: data of ACIS beside"), "{faults}");
+}
+
+#[test]
+fn references_to_other_files_are_named() {
+    let blocks = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nAFT\n70\n4\n1\naft.dwg\n0\nENDBLK\n0\nENDSEC\n";
+    let text = format!("{blocks}{}", drawing(&(polylines(&sections(3.0)) + "0\nINSERT\n2\nAFT\n")));
+    let read = read_table("a.dxf", text.as_bytes()).unwrap_or_else(|e| panic!("{}", said(&e)));
+    let notes = said(&read.notes);
+    assert!(notes.contains("W352") && notes.contains("1 of INSERT name blocks that the file does not hold"), "{notes}");
+}
+
+#[test]
+fn many_comments_before_the_first_section_are_passed() {
+    let comments = "999\ncomment of a program\n".repeat(10_000);
+    let text = comments + &drawing(&polylines(&sections(3.0)));
+    let read = read_table("a.dxf", text.as_bytes()).unwrap_or_else(|e| panic!("{}", said(&e)));
+    assert_eq!(read.table.stations.len(), 11);
 }

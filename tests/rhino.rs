@@ -87,6 +87,44 @@ fn layers_are_parts_and_hidden_ones_are_left_out() {
     assert!(wrong.contains("E311 parts: no part 'keel' Known are hull, tank, yard::dock"), "{wrong}");
 }
 
+/// A layer that is its own parent has one name, and objects stay on it.
+#[test]
+fn a_layer_in_itself_ends() {
+    let mut bytes = bytes("layers-v8");
+    let name: Vec<u8> = "dock\0".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    // Behind the name: whether it is shown, line type, colour and width in print, lock.
+    let id = bytes.windows(name.len()).position(|window| window == name).unwrap() + name.len() + 18;
+    bytes.copy_within(id..id + 16, id + 16);
+    let chosen = |name: &str| {
+        let beside = format!("[table]\nparts = \"{name}\"\n");
+        read_body("a.3dm", &bytes, [("a.toml", beside.as_str())]).unwrap()
+    };
+    let body = chosen("dock").unwrap_or_else(|problems| panic!("{}", said(&problems)));
+    assert!((volume(&body) - 7200.0).abs() < 1e-6, "{}", volume(&body));
+    let wrong = said(&chosen("keel").unwrap_err());
+    assert!(wrong.contains("Known are hull, tank, dock"), "{wrong}");
+}
+
+/// One side of y = g z with g = 1 - |x - 10|/10 [m] has 10 T^2 m3 below the draught T, both sides.
+#[test]
+fn loose_surfaces_count_once_and_without_sheets() {
+    let notes = |name: &str| said(&read(name, "").unwrap_or_else(|p| panic!("{name}: {}", said(&p))).notes);
+    // The second one has its parameters the other way round; of two patches one has more control points.
+    for name in ["twice-v8", "patches-v8"] {
+        let body = read_hydrostatic_body(&carried("tests/rhino").join(format!("{name}.3dm"))).unwrap();
+        let rows = body.curves_of_form(&[1.0], &Conventions::default()).unwrap().0.rows;
+        let found = rows[0].displacement_volume;
+        assert!((found - 10.0).abs() < 1e-2, "{name}: {found}");
+        let found = notes(name);
+        assert!(!found.contains("W351"), "{name}: {found}");
+        assert_eq!(found.contains("W320 1 surface given twice: counted once"), name == "twice-v8", "{found}");
+    }
+    let found = notes("inner-v8");
+    assert!(found.contains("W351 2 groups of surfaces share no side with each other"), "{found}");
+    let numbered = said(&read("inner-v8", "[table]\nparts = 1\n").unwrap_err());
+    assert!(numbered.contains("E311 parts: surfaces that nothing trims have no numbers"), "{numbered}");
+}
+
 #[test]
 fn what_is_not_read_is_refused_by_its_kind() {
     let refused = |name: &str, beside: &str| said(&read(name, beside).unwrap_err());
@@ -108,6 +146,7 @@ fn what_is_not_read_is_refused_by_its_kind() {
     assert!(of(b"3D Geometry File Format        1").contains("E350 an archive of version 1"));
     assert!(of(b"3D Geometry File Format       50").contains("E350 the file is cut off"));
     assert!(of(b"3D Geometry File Format     none").contains("states no version"));
+    assert!(of(b"station,z,y\n1,2,3\n").contains("E350 no 3DM file, by its first words"));
     let whole = bytes("box-v3");
     assert!(of(&whole[..whole.len() / 2]).contains("E350 the file is cut off or damaged"));
 }

@@ -34,10 +34,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "LIST", help_heading = TARGETS)]
     wave_resistance: Option<String>,
     /// Weight of the wave resistance against bending, m2 [default: the knee of seven weights]
-    #[arg(long, value_name = "WEIGHT", allow_hyphen_values = true, requires = "wave_resistance", help_heading = TARGETS)]
+    #[arg(long, value_name = "WEIGHT", allow_hyphen_values = true, help_heading = TARGETS)]
     wave_weight: Option<String>,
     /// How far half-breadths move at most for the wave resistance [default: no limit]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "wave_resistance", help_heading = TARGETS)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = TARGETS)]
     within: Option<String>,
     /// What is not kept although nothing states it: displacement, lcb or cm; may be repeated
     #[arg(long, value_name = "NAME", help_heading = TARGETS)]

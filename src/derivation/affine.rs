@@ -5,11 +5,12 @@
 //! affine laws). Otherwise the slope of the map of heights goes from s at the waterline to r at the deck,
 //!
 //! ```text
-//! f' = s + (r - s) (3 w^2 - 2 w^3),   w = (z - z1) / (D0 - z1),   r = s + 2 (D - s D0) / (D0 - z1)
+//! f' = s + (r - s) (3 w^2 - 2 w^3),   w = min(1, (z - z1) / (c (D0 - z1))),   r = s + 2 (a - s) / (2 - c)
 //! ```
 //!
-//! with z1 the highest control height that bears on the immersed part, so that this part is scaled as a whole. It is twice
-//! differentiable, and rises as long as r > 0.
+//! with z1 the highest control height that bears on the immersed part, so that this part is scaled as a whole, and
+//! a = (D - s z1) / (D0 - z1) the mean slope above it. c is 1, or less where r would be below s/5: then r is s/5. The map is
+//! twice differentiable, and rises as long as a > s/4.
 
 use super::refusal::Refusal;
 use super::request::Dimensions;
@@ -19,6 +20,11 @@ use crate::spline::{BsplineCurve, BsplineSurface};
 /// Part of the way from T to D that the change of slope has at least.
 const LEAST_WAY: f64 = 0.15;
 
+/// Slope of the map at the deck, over that below T, from which the change of slope ends below the deck.
+const DRY_SLOPE: f64 = 0.2;
+/// Least mean slope of the map above T, over that below.
+const LEAST_SLOPE: f64 = 0.25;
+
 /// Part of a span above T in which knots are added.
 const FINER: f64 = 0.5;
 
@@ -27,17 +33,28 @@ const FINER: f64 = 0.5;
 struct Heights {
     scale: f64,
     top_slope: f64,
+    /// c.
+    reach: f64,
     from: f64,
     depth: f64,
 }
 
 impl Heights {
+    /// With the mean slope `mean` above `from`; none where it is below [`LEAST_SLOPE`] of `scale`.
+    fn new(scale: f64, mean: f64, from: f64, depth: f64) -> Option<Self> {
+        let least = DRY_SLOPE * scale;
+        let top_slope = 2.0 * mean - scale;
+        let (top_slope, reach) =
+            if top_slope >= least { (top_slope, 1.0) } else { (least, 2.0 * (mean - least) / (scale - least)) };
+        (mean > LEAST_SLOPE * scale).then_some(Self { scale, top_slope, reach, from, depth })
+    }
+
     fn at(&self, z: f64) -> f64 {
         let way = self.depth - self.from;
         let w = ((z - self.from) / way).max(0.0);
-        let inner = w.min(1.0);
+        let part = (w / self.reach).min(1.0);
         // The integral of 3 w^2 - 2 w^3.
-        let grown = inner.powi(3) - 0.5 * inner.powi(4) + (w - inner);
+        let grown = self.reach * (part.powi(3) - 0.5 * part.powi(4)) + (w - self.reach).max(0.0);
         self.scale * z + (self.top_slope - self.scale) * way * grown
     }
 }
@@ -85,16 +102,13 @@ pub fn scaled(parent: &Hull, dimensions: &Dimensions) -> Result<Hull, Refusal> {
     let scale = draught / old_draught;
     let uniform = (new.depth - scale * old.depth).abs() <= 1e-12 * new.depth;
     let (surface, from) = with_dry_side(parent, old_draught, old.depth);
-    let top_slope = if uniform {
-        scale
-    } else {
-        scale + 2.0 * (new.depth - scale * old.depth) / (old.depth - from).max(1e-9 * old.depth)
-    };
-    if new.draught_exceeds_depth() || top_slope <= 0.0 {
-        let least = scale * (old.depth - 0.5 * (old.depth - from));
+    let way = (old.depth - from).max(1e-9 * old.depth);
+    let mean = if uniform { scale } else { (new.depth - scale * from) / way };
+    let heights = Heights::new(scale, mean, from, old.depth).filter(|_| !new.draught_exceeds_depth());
+    let Some(heights) = heights else {
+        let least = scale * (from + LEAST_SLOPE * way);
         return Err(Refusal::depth(new.depth, least.max(draught), draught));
-    }
-    let heights = Heights { scale, top_slope, from, depth: old.depth };
+    };
     let points = surface.points().iter().map(|[x, y, z]| [along * x, across * y, heights.at(*z)]).collect();
     let deck = parent.deck().points().iter().map(|[x, z]| [along * x, heights.at(*z)]).collect();
     let deck = BsplineCurve::new(parent.deck().knots().clone(), deck).map_err(|error| Refusal::hull(&error))?;

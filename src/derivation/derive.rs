@@ -113,6 +113,20 @@ pub fn derive(
     Ok(derived)
 }
 
+/// That no weight of the wave resistance has a daughter.
+fn no_weight(request: &WaveRequest, failed: Option<&Failed>) -> Refusal {
+    let left = match failed {
+        Some(Failed::Astray(left)) => format!(" (the last step left {left:.1e})"),
+        _ => String::new(),
+    };
+    let (words, within) = match request.within {
+        Some(most) => (vec!["within"], format!(" within {:.1} mm", 1e3 * most)),
+        None => (vec!["wave-resistance"], String::new()),
+    };
+    let message = format!("no hull{within} of the start meets the targets with a weight of the wave resistance{left}");
+    Refusal::new("E420", words, message, "Allow more with --within, or free a target that is kept".to_owned())
+}
+
 /// A daughter with the shifted parent that it is nearest to, and the amplitudes of the shift.
 type Started = (Derived, Hull, [f64; 2]);
 
@@ -270,6 +284,7 @@ impl Job<'_> {
                 energy: derived.energy,
                 moves: square.sqrt(),
                 inflections: inflections(&derived.hull, &planes),
+                keeps_signs: derived.keeps_signs,
             };
             Ok::<_, Failed>((derived, trade))
         };
@@ -277,9 +292,15 @@ impl Job<'_> {
             Some(weight) => vec![weight],
             None => self.weights_of_waves(&term, &plain, &moves, &solved),
         };
-        let mut found = Vec::new();
+        let (mut found, mut failure) = (Vec::new(), None);
         for weight in weights {
-            found.push(solved(weight).map_err(|failed| self.infeasible(start, &failed))?);
+            match solved(weight) {
+                Ok(one) => found.push(one),
+                Err(failed) => failure = Some(failed),
+            }
+        }
+        if found.is_empty() {
+            return Err(vec![no_weight(request, failure.as_ref())]);
         }
         let trades: Vec<WaveTrade> = found.iter().map(|(_, trade)| *trade).collect();
         let taken = knee(&trades);
@@ -305,7 +326,9 @@ impl Job<'_> {
         for _ in 0..8 {
             let Ok((_, trade)) = solved(weight) else { break };
             let gain = without - trade.ratio;
-            if gain > 0.2 * MIDDLE_GAIN {
+            if !gain.is_finite() {
+                break;
+            } else if gain > 0.2 * MIDDLE_GAIN {
                 weight *= 0.1;
             } else if gain < 1e-3 * MIDDLE_GAIN {
                 weight *= 30.0;

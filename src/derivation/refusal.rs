@@ -34,6 +34,6 @@ impl Refusal {
 
     pub(super) fn hull(error: &impl fmt::Display) -> Self {
         let message = format!("the daughter is no hull: {error}");
-        Self::new("E420", vec!["method"], message, "Give targets nearer to the parent".to_owned())
+        Self::new("E420", vec![], message, "Give targets nearer to the parent".to_owned())
     }
 }

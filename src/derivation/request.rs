@@ -88,6 +88,9 @@ pub struct Request {
     pub block_coefficient: Option<f64>,
     /// LCB \[% of L_PP\], + forward of L_PP/2, in place of a position.
     pub lcb_percent: Option<f64>,
+    /// LCB and LCF as x = share L_PP + shift \[m\], in place of positions.
+    #[doc(hidden)]
+    pub centres: [Option<[f64; 2]>; 2],
     /// The other targets.
     pub targets: Vec<(Quantity, f64)>,
     /// Quantities that are not kept although nobody names them.
@@ -107,7 +110,11 @@ impl Request {
         let own = self.targets.iter().find(|(named, _)| *named == quantity).map(|(_, value)| *value);
         let other = match quantity {
             Quantity::Volume => self.block_coefficient.map(|block| block * reference.volume()),
-            Quantity::Lcb => self.lcb_percent.map(|part| reference.between * (0.5 + 0.01 * part)),
+            Quantity::Lcb => {
+                let part = self.lcb_percent.map(|part| [0.5 + 0.01 * part, 0.0]);
+                part.or(self.centres[0]).map(|[share, shift]| share * reference.between + shift)
+            }
+            Quantity::Lcf => self.centres[1].map(|[share, shift]| share * reference.between + shift),
             _ => None,
         };
         own.or(other)
@@ -134,7 +141,8 @@ impl Request {
     pub(super) fn names(&self, quantity: Quantity) -> bool {
         let other = match quantity {
             Quantity::Volume => self.block_coefficient.is_some(),
-            Quantity::Lcb => self.lcb_percent.is_some(),
+            Quantity::Lcb => self.lcb_percent.is_some() || self.centres[0].is_some(),
+            Quantity::Lcf => self.centres[1].is_some(),
             _ => false,
         };
         other || self.targets.iter().any(|(named, _)| *named == quantity)

@@ -16,6 +16,9 @@ use crate::hull::Hull;
 use crate::numeric::join;
 use crate::resistance::{ThinShip, Water, WaveForms};
 
+/// Most half-breadths that may change: R_W couples each with all others.
+const MOST_FREE: usize = 1500;
+
 /// What is asked of the wave resistance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WaveRequest {
@@ -23,7 +26,7 @@ pub struct WaveRequest {
     pub froude_numbers: Vec<f64>,
     /// The weight w [m^2]; seven of them, and the knee between, where none is given.
     pub weight: Option<f64>,
-    /// How far control half-breadths may move from the start \[m\].
+    /// How far control half-breadths may move from the scaled parent, or from where the shift of sections puts them \[m\].
     pub within: Option<f64>,
     /// The water.
     pub water: Water,
@@ -42,6 +45,8 @@ pub struct WaveTrade {
     pub moves: f64,
     /// Inflections of stations and waterlines.
     pub inflections: usize,
+    /// Whether the signs of curvature of the parent are kept.
+    pub keeps_signs: bool,
 }
 
 /// What the wave resistance comes to.
@@ -76,7 +81,7 @@ pub(super) fn speeds(request: &WaveRequest, between: f64) -> Vec<f64> {
 /// R_W of a hull at the Froude numbers \[N\].
 ///
 /// # Errors
-/// E425 where the hull has no waterline at its draught.
+/// E420 where the hull does not float at its draught.
 pub(super) fn resistances(hull: &Hull, request: &WaveRequest, draught: f64) -> Result<Vec<f64>, Refusal> {
     let speeds = speeds(request, hull.particulars().length_between_perpendiculars);
     let ship = ThinShip::new(hull, draught).map_err(|error| Refusal::hull(&error))?;
@@ -94,6 +99,9 @@ impl WaveTerm {
         before: &[f64],
     ) -> Result<Self, Refusal> {
         let Some(forms) = WaveForms::new(start, draught) else { return Err(not_level(start)) };
+        if free.len() > MOST_FREE {
+            return Err(too_many(start, free.len()));
+        }
         let speeds = speeds(request, start.particulars().length_between_perpendiculars);
         let count = free.len();
         let mut term = Self { value: 0.0, gradient: vec![0.0; count], form: DMatrix::zeros(count, count) };
@@ -116,6 +124,13 @@ impl WaveTerm {
         let linear: f64 = self.gradient.iter().zip(change.iter()).map(|(g, c)| g * c).sum();
         self.value + linear + (&self.form * &change).dot(&change)
     }
+}
+
+fn too_many(hull: &Hull, count: usize) -> Refusal {
+    let message =
+        format!("{} has {count} half-breadths that may change, and R_W couples each with all others", hull.name());
+    let remedy = format!("Derive from a hull with a coarser net: at most {MOST_FREE}");
+    Refusal::new("E425", vec!["wave-resistance"], message, remedy)
 }
 
 fn not_level(hull: &Hull) -> Refusal {
@@ -146,7 +161,14 @@ mod tests {
     /// R = 1 / (1 + s), J = s^2: the knee is where the slope is that of the chord.
     #[test]
     fn the_knee_is_farthest_from_the_chord() {
-        let of = |s: f64| WaveTrade { weight: s, ratio: 1.0 / (1.0 + s), energy: s * s, moves: s, inflections: 0 };
+        let of = |s: f64| WaveTrade {
+            weight: s,
+            ratio: 1.0 / (1.0 + s),
+            energy: s * s,
+            moves: s,
+            inflections: 0,
+            keeps_signs: true,
+        };
         let trades: Vec<WaveTrade> = [0.0, 0.2, 0.4, 0.7, 1.0, 2.0, 3.0].map(of).to_vec();
         // 1 - 1/(1+s) over 3/4 less s/3 is greatest at s = 1.
         assert_eq!(knee(&trades), 4);

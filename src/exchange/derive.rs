@@ -33,8 +33,9 @@ pub struct WaveReport {
     pub froude_numbers: Vec<f64>,
     /// R_W of the scaled parent and of the daughter \[N\].
     pub resistances: [Vec<f64>; 2],
-    /// Weight [m^2], mean of R_W over that of the scaled parent, bending [m^2], moves \[m\] and inflections of every weight.
-    pub trades: Vec<[f64; 5]>,
+    /// Weight [m^2], mean of R_W over that of the scaled parent, bending [m^2] and moves \[m\] of every weight, with its
+    /// inflections, and whether signs of curvature are kept.
+    pub trades: Vec<([f64; 4], usize, bool)>,
     /// Which of them was taken.
     pub taken: usize,
 }
@@ -44,14 +45,15 @@ fn waves_json(waves: &WaveReport) -> Value {
         let of = |which: usize| json_number(waves.resistances[which].get(k).copied());
         json!({ "froude_number": json_number(Some(*number)), "RW_scaled_parent": of(0), "RW_daughter": of(1) })
     };
-    let trade = |[weight, ratio, energy, moves, inflections]: &[f64; 5]| {
+    let trade = |([weight, ratio, energy, moves], inflections, keeps_signs): &([f64; 4], usize, bool)| {
         let number = |value: &f64| json_number(Some(*value));
         json!({
             "weight": number(weight),
             "RW_ratio": number(ratio),
             "energy": number(energy),
             "moves_rms": number(moves),
-            "inflections": *inflections as usize,
+            "inflections": inflections,
+            "keeps_signs": keeps_signs,
         })
     };
     json!({

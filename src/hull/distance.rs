@@ -45,6 +45,7 @@ fn middles(breakpoints: &[f64], least: usize) -> Vec<(f64, f64)> {
 
 /// The other body: its side with a grid of points, and the edges across which faces close it.
 struct Target<'a> {
+    hull: &'a Hull,
     surface: &'a BsplineSurface<3>,
     grid: Vec<([f64; 2], [f64; 3])>,
     edges: [Vec<[f64; 3]>; 3],
@@ -67,14 +68,22 @@ impl<'a> Target<'a> {
         let keel = (0..=CHORDS).map(|k| surface.eval(along(k), v.0)).collect();
         let ends = [u.0, u.1].map(|end| (0..=CHORDS).map(|k| surface.eval(end, up(k))).collect::<Vec<_>>());
         let [aft, fore] = ends;
-        Self { surface, grid, edges: [keel, aft, fore] }
+        Self { hull, surface, grid, edges: [keel, aft, fore] }
     }
 
-    /// Square of the distance of a point from the side, and whether it is outside of it.
+    /// Square of the distance of a point from the side, and whether it is outside of it: from the nearest point of the grid,
+    /// and from the point at the same x and z, since lines of the net may crowd where a search stands still.
     fn to_side(&self, point: [f64; 3]) -> (f64, bool) {
         let square = |p: &[f64; 3]| dot(minus(*p, point), minus(*p, point));
-        let start = self.grid.iter().map(|(at, p)| (square(p), *at)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((mut best, mut at)) = start else { return (f64::INFINITY, false) };
+        let on_grid = self.grid.iter().map(|(at, p)| (square(p), *at)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let across = self.hull.parameters(point[0], point[2]).map(|at| (square(&self.surface.eval(at[0], at[1])), at));
+        let found = on_grid.into_iter().chain(across).map(|start| self.searched(point, start));
+        found.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, false))
+    }
+
+    /// The nearest point in reach of a start: the square of its distance, and whether `point` is outside of the side there.
+    fn searched(&self, point: [f64; 3], (mut best, mut at): (f64, [f64; 2])) -> (f64, bool) {
+        let square = |p: &[f64; 3]| dot(minus(*p, point), minus(*p, point));
         let ((a, b), (c, d)) = (self.surface.u().domain(), self.surface.v().domain());
         let mut damping = 1e-9;
         for _ in 0..STEPS {

@@ -10,7 +10,7 @@ use super::files::OutputFile;
 use super::generate::{Outputs, json_file};
 use super::source::{Overrides, Source, read_source_with};
 use crate::config::{DeriveFile, Diagnostic, Severity};
-use crate::derivation::{Blend, BlendRequest, BlendTarget, Dimension, Dimensions, blend};
+use crate::derivation::{Blend, BlendRequest, BlendTarget, Dimension, Dimensions, Quantity, blend};
 use crate::exchange::{BlendPart, BlendReport, DerivedTarget, blend_json};
 use crate::hydrostatics::Conventions;
 use crate::numeric::join;
@@ -90,16 +90,13 @@ fn request(job: &BlendJob, between: f64, density: f64) -> BlendRequest {
     let wanted = &job.wanted;
     let [length, breadth, draught, depth] = wanted.dimensions;
     let between = length.unwrap_or(between);
-    // A position in parts of L_PP follows a length that is free.
-    let parts = wanted.centres[0].filter(|[_, shift]| *shift == 0.0).map(|[share, _]| 100.0 * (share - 0.5));
-    let lcb = crate::derivation::Quantity::Lcb;
     let mut targets = stated_targets(wanted, between, density);
-    targets.retain(|(quantity, _)| *quantity != lcb || parts.is_none());
+    targets.retain(|(quantity, _)| !matches!(quantity, Quantity::Lcb | Quantity::Lcf));
     BlendRequest {
         dimensions: Dimensions { length, breadth, draught, depth },
         weights: job.weights.clone(),
         block_coefficient: wanted.coefficients[0],
-        lcb_percent: parts,
+        centres: wanted.centres,
         targets,
         free: job.free.clone(),
     }
@@ -169,7 +166,12 @@ pub fn blend_outputs(job: &BlendJob, figures: &[Figure]) -> Result<BlendOutputs,
 
 fn no_draught(path: &std::path::Path) -> Diagnostic {
     let message = "states no draught, at which the hulls of a blend are brought together".to_owned();
-    problem("E184", path, message, "State it: T in its side file or under [dimensions], or --draught of fit")
+    problem(
+        "E184",
+        path,
+        message,
+        "State its own: T in its side file or under [dimensions]; --draught is that of the blend",
+    )
 }
 
 fn warning(code: &'static str, path: &std::path::Path, message: String, help: &str) -> String {

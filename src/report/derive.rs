@@ -127,6 +127,7 @@ impl DeriveJob {
             dimensions,
             block_coefficient: wanted.coefficients[0],
             lcb_percent: None,
+            centres: [None; 2],
             targets: stated_targets(wanted, between, conventions.density),
             free,
             method: self.method(),
@@ -146,7 +147,7 @@ impl DeriveJob {
 }
 
 fn wave_report(waves: &WaveResult) -> WaveReport {
-    let trade = |t: &WaveTrade| [t.weight, t.ratio, t.energy, t.moves, t.inflections as f64];
+    let trade = |t: &WaveTrade| ([t.weight, t.ratio, t.energy, t.moves], t.inflections, t.keeps_signs);
     WaveReport {
         froude_numbers: waves.froude_numbers.clone(),
         resistances: [waves.before.clone(), waves.after.clone()],
@@ -176,6 +177,10 @@ fn target(reached: &Reached) -> DerivedTarget {
 /// reach; [`Failure::Options`] or [`Failure::Input`] for values that no ship has (E421) and targets that the method does
 /// not take (E422).
 pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutputs, Failure> {
+    if job.wanted.froude_numbers.is_none() && (job.wanted.wave_weight.is_some() || job.wanted.within.is_some()) {
+        let message = "--wave-weight and --within go with --wave-resistance, and no Froude numbers are given";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let source = read_source_with(&job.parent, &job.overrides)?;
     let Source { hull, conventions, notes, .. } = source;
     let parent = match job.wanted.parent_draught {

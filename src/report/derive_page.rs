@@ -109,7 +109,8 @@ fn waves(page: &mut String, waves: &WaveResult) {
         let [weight, energy] = [trade.weight, trade.energy].map(|value| format!("{value:.2e}"));
         let ratio = format!("{:+.2} %", 100.0 * (trade.ratio - 1.0));
         let moves = fixed(1e3 * trade.moves, 1);
-        let taken = if k == waves.taken { " <" } else { "" };
+        let signs = if trade.keeps_signs { "" } else { " signs not kept" };
+        let taken = format!("{}{signs}", if k == waves.taken { " <" } else { "" });
         let _ = writeln!(page, "{weight:>12}{ratio:>12}{energy:>14}{moves:>12}{:>14}{taken}", trade.inflections);
     }
     page.push('\n');

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use super::compare::{CompareOutputs, ComparedHull, compared, comparison_files, round_draughts};
-use super::failure::{Failure, problem};
+use super::failure::{COMMAND_LINE, Failure, problem};
 use super::files::OutputFile;
 use super::generate::{Outputs, figure_files, json_file, manifest_entry, manifest_of};
 use super::markdown::markdown_page;
@@ -22,7 +22,7 @@ use crate::plot::{Figure, FigureInputs};
 use crate::units::{Notation, decimal};
 
 /// Where the words of targets stand: options, and keys of the job file.
-const PLACES: [(&str, &str, &str); 19] = [
+const PLACES: [(&str, &str, &str); 22] = [
     ("wave-resistance", "--wave-resistance", "wave_resistance"),
     ("cb", "--cb", "Cb"),
     ("displacement", "--displacement", "displacement"),
@@ -41,7 +41,10 @@ const PLACES: [(&str, &str, &str); 19] = [
     ("lpp", "--lpp", "Lpp"),
     ("beam", "--beam", "B"),
     ("weights", "--weights", "weights"),
-    ("hulls", "HULL", "hulls"),
+    ("hulls", COMMAND_LINE, "hulls"),
+    ("free", "--free", "free"),
+    ("within", "--within", "within"),
+    ("wave-weight", "--wave-weight", "wave_weight"),
 ];
 
 /// The failure of refusals: values and options as bad input, targets out of reach as infeasible.
@@ -50,7 +53,7 @@ pub(super) fn refused(refusals: Vec<Refusal>, wanted: &DeriveFile, job_file: Opt
     let shown = |word: &str| {
         let stated_block = word == "displacement" && wanted.coefficients[0].is_some();
         let word = if stated_block { "cb" } else { word };
-        PLACES.iter().find(|place| place.0 == word).map_or(("--cb", "Cb"), |place| (place.1, place.2))
+        PLACES.iter().find(|place| place.0 == word).map_or((COMMAND_LINE, "parent"), |place| (place.1, place.2))
     };
     let message = |refusal: Refusal| {
         let (option, key) = shown(refusal.words.first().copied().unwrap_or_default());
@@ -114,8 +117,13 @@ impl DerivedHull<'_> {
         let draughts = round_draughts(self.hull.particulars().draught, [low, high]);
         let [a, b] = hulls.map(|hull| CurvesOfForm::new(hull, &draughts, &self.conventions).rows);
         let rows = a.into_iter().zip(b).map(|(a, b)| [a, b]).collect();
+        // The names of all hulls of a blend are too long for the titles of figures.
+        let name = |hull: &Hull| {
+            let is_blend = self.family == "blend" && hull.name() == self.hull.name();
+            if is_blend { self.family.to_owned() } else { hull.name().to_owned() }
+        };
         let of = |hull: &Hull| ComparedHull {
-            name: hull.name().to_owned(),
+            name: name(hull),
             hull: hull.clone(),
             particulars: *hull.particulars(),
             row: self.row(hull),

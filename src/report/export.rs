@@ -639,9 +639,8 @@ pub fn export(
             (format, Some(mesh), _) if format.is_mesh() => mesh_file(mesh, title, format, settings.unit)?,
             (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
-            (ExportFormat::Rhino, _, Some(solid)) => {
-                write_3dm(solid, title, settings.unit).map_err(Failure::Internal)?
-            }
+            (ExportFormat::Rhino, _, Some(solid)) => write_3dm(solid, title, settings.unit)
+                .map_err(|error| Failure::Internal(format!("3DM file of the solid: {error}")))?,
             (ExportFormat::Dxf, ..) => write_dxf(
                 &lines_in_space(hull, settings.stations, deviation, settings.datum),
                 settings.unit,

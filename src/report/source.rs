@@ -48,9 +48,9 @@ const LARGEST_BODY: u64 = 1 << 30;
 const CONTENT: usize = 1 << 16;
 
 /// Endings of meshes and CAD files.
-const BODIES: [&str; 17] = [
+const BODIES: [&str; 18] = [
     "3dm", "stl", "obj", "ply", "off", "glb", "gltf", "3mf", "vtk", "vtp", "vtu", "msh", "hst", "step", "stp", "igs",
-    "iges",
+    "iges", "dxf",
 ];
 
 /// Whether a path is standard input: `-`.

@@ -305,7 +305,8 @@ impl<'a> Bend<'a> {
     fn weights(&self, v: f64) -> [f64; 2] {
         let [keel, waterline, top] = self.heights;
         let z = self.base.surface().eval(self.midship, v)[2];
-        let w = ((z - waterline) / (top - waterline)).clamp(0.0, 1.0);
+        let dry = top - waterline;
+        let w = if dry > SAME_KNOT * (top - keel) { ((z - waterline) / dry).clamp(0.0, 1.0) } else { 0.0 };
         [1.0 - (z - keel) / (top - keel), w.powi(3) * (2.0 - w)]
     }
 
@@ -319,11 +320,15 @@ impl<'a> Bend<'a> {
         let of = |end: f64| {
             let [x, _, z] = self.base.surface().eval(end, v);
             let height = z + weights[0] * self.corner(end, 0.0) + weights[1] * self.corner(end, 1.0);
-            let at = |edge: f64| self.other.surface().eval(end, edge)[2];
-            let nearest = if height < 0.5 * (at(0.0) + at(1.0)) { 0.0 } else { 1.0 };
+            let ends = [0.0, 1.0].map(|edge| self.other.surface().eval(end, edge)[2]);
+            let slack = SAME_KNOT * (self.heights[2] - self.heights[0]);
             // Corners correspond, whatever rounding leaves.
-            let parameter =
-                if v <= 0.0 || v >= 1.0 { v } else { self.other.height_parameter_at(end, height).unwrap_or(nearest) };
+            let parameter = if v <= 0.0 || v >= 1.0 || ends[1] - ends[0] <= slack {
+                v
+            } else {
+                let rounding = || ends.iter().position(|z| (z - height).abs() <= slack).map(|edge| edge as f64);
+                self.other.height_parameter_at(end, height).or_else(rounding).unwrap_or(f64::NAN)
+            };
             (self.other.surface().eval(end, parameter)[0] - x, parameter)
         };
         let [(aft, at_aft), (fore, at_fore)] = [of(0.0), of(1.0)];
@@ -337,12 +342,19 @@ impl<'a> Bend<'a> {
         let of = |edge: &Along| {
             let [x, _, z] = self.base.surface().eval(u, edge.v);
             let x = x + fades[0] * edge.apart[0] + fades[1] * edge.apart[1];
-            let parameter =
-                if u <= 0.0 || u >= 1.0 { u } else { self.other.length_parameter(x, edge.v).unwrap_or(u.round()) };
+            let parameter = if u <= 0.0 || u >= 1.0 { u } else { self.length_on_edge(x, edge.v) };
             (self.other.surface().eval(parameter, edge.v)[2] - z, parameter)
         };
         let [(keel, at_keel), (top, at_top)] = [of(&edges[0]), of(&edges[1])];
         Across { u, fades, apart: [keel, top], parameters: [at_keel, at_top] }
+    }
+
+    /// The parameter at x on keel or upper edge of the other hull; not finite beyond its ends.
+    fn length_on_edge(&self, x: f64, edge: f64) -> f64 {
+        let slack = SAME_KNOT * (self.ends[1] - self.ends[0]);
+        let ends = [0.0, 1.0].map(|u| self.other.surface().eval(u, edge)[0]);
+        let rounding = || ends.iter().position(|end| (end - x).abs() <= slack).map(|end| end as f64);
+        self.other.length_parameter(x, edge).or_else(rounding).unwrap_or(f64::NAN)
     }
 
     /// X - x and Z - z.
@@ -401,6 +413,9 @@ impl<'a> Bend<'a> {
                 let [x, _, z] = self.base.surface().eval(*u, along.v);
                 let [dx, dz] = Self::moved(&across, along);
                 let [a, b] = self.parameters(&across, along, [x + dx, z + dz])?;
+                if !(dx.is_finite() && dz.is_finite() && a.is_finite() && b.is_finite()) {
+                    return Err(Unlike::Outside([x, z]));
+                }
                 values.push([dx, self.other.surface().eval(a, b)[1], dz]);
             }
         }

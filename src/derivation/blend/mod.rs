@@ -53,8 +53,8 @@ pub struct BlendRequest {
     pub weights: Option<Vec<f64>>,
     /// C_B \[-\], in place of a volume.
     pub block_coefficient: Option<f64>,
-    /// LCB \[% of L_PP\], + forward of L_PP/2, in place of a position.
-    pub lcb_percent: Option<f64>,
+    /// LCB and LCF as x = share L_PP + shift \[m\], which follow a length that is free.
+    pub centres: [Option<[f64; 2]>; 2],
     /// The other targets.
     pub targets: Vec<(Quantity, f64)>,
     /// Dimensions that may change for the targets, by a factor of 1.5 at most.
@@ -142,7 +142,10 @@ pub fn blend(
         target,
         of_hulls: parents.iter().map(|parent| value_of(target.quantity, parent, &reference)).collect(),
         achieved: value_of(target.quantity, &hull, &reference),
-        interval: intervals.then(|| blending.interval(target.quantity)).flatten(),
+        interval: intervals.then(|| blending.interval(target.quantity)).flatten().map(|found| {
+            let unit = blending.measure(target.quantity, &reference);
+            Interval { low: unit * found.low, high: unit * found.high, ..found }
+        }),
     };
     let targets = targets.into_iter().map(reached).collect();
     let is_linear = is_linear(&one.hulls, draught);
@@ -172,7 +175,7 @@ fn of(hull: &Hull) -> Dimensions {
 fn stated(request: &BlendRequest) -> Request {
     Request {
         block_coefficient: request.block_coefficient,
-        lcb_percent: request.lcb_percent,
+        centres: request.centres,
         targets: request.targets.clone(),
         ..Request::default()
     }
@@ -215,6 +218,18 @@ fn counts(hulls: &[Hull], request: &BlendRequest, targets: usize) -> Vec<Refusal
             format!("{count} hull is given, and a blend is made of two or more"),
             "Name another hull",
         );
+    }
+    for dimension in &request.free {
+        let twice = request.free.iter().filter(|other| *other == dimension).count() > 1;
+        let stated = match dimension {
+            Dimension::Length => request.dimensions.length,
+            Dimension::Breadth => request.dimensions.breadth,
+            Dimension::Draught => request.dimensions.draught,
+        };
+        if twice || stated.is_some() {
+            let message = format!("{} is free and given, or free twice", dimension.word());
+            refuse(vec!["free"], message, "Leave one of them out");
+        }
     }
     if let Some(weights) = &request.weights {
         let list = |values: &[f64]| values.iter().map(|w| format!("{w}")).collect::<Vec<_>>().join(",");
@@ -270,6 +285,10 @@ impl Blending<'_> {
     /// Values that no ship of these dimensions has.
     fn possible(&self, hull: &Hull) -> Result<(), Vec<Refusal>> {
         let Some((reference, targets)) = self.targets(hull) else { return Err(vec![Refusal::no_draught()]) };
+        if !self.free.is_empty() {
+            // They are values of other dimensions than these.
+            return Ok(());
+        }
         let refused: Vec<Refusal> = targets.iter().filter_map(|target| impossible(target, &reference)).collect();
         if refused.is_empty() { Ok(()) } else { Err(refused) }
     }
@@ -288,21 +307,30 @@ impl Blending<'_> {
             }
             Failed::Infeasible => {}
         }
-        let targets = self.hull_of_even().and_then(|hull| self.targets(&hull)).map(|(_, targets)| targets);
         let mut refused = Vec::new();
-        for target in targets.unwrap_or_default() {
-            let (key, unit) = (target.quantity.key(), target.quantity.unit());
-            let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+        let Some((reference, targets)) = self.hull_of_even().and_then(|hull| self.targets(&hull)) else {
+            return refuse("nothing floats at the draught of the blend".to_owned(), "Give another draught".to_owned());
+        };
+        for target in targets {
             let Some(interval) = self.interval(target.quantity) else { continue };
-            if interval.holds(target.value) {
+            let value = self.measured(target.quantity, target.value, &reference);
+            if interval.holds(value) {
                 continue;
             }
+            let is_stated = (self.measure(target.quantity, &reference) - 1.0).abs() > 0.0;
+            let (name, unit) = match (target.quantity, is_stated) {
+                (Quantity::Volume, true) => ("C_B", String::new()),
+                (quantity, true) => (quantity.key(), " L_PP forward of AP".to_owned()),
+                (quantity, false) if quantity.unit() == "-" => (quantity.key(), String::new()),
+                (quantity, false) => (quantity.key(), format!(" {}", quantity.unit())),
+            };
+            // Rounded to the inside, so that the ends are feasible.
+            let [low, high] = [(1e5 * interval.low).ceil() / 1e5, (1e5 * interval.high).floor() / 1e5];
+            let nearest = value.clamp(low.min(high), high.max(low));
             let message = format!(
-                "{key} can be {:.5} to {:.5}{unit} of these hulls with the other targets met, and {:.5} is wanted",
-                interval.low, interval.high, target.value
+                "{name} can be {low:.5} to {high:.5}{unit} of these hulls with the other targets met, and {value:.5} is wanted"
             );
-            let remedy =
-                format!("Give {:.5}{unit}, add a hull beyond it, or free a dimension", interval.nearest(target.value));
+            let remedy = format!("Give {nearest:.5}{unit}, add a hull beyond it, or free a dimension");
             refused.push(Refusal::new("E420", vec![target.quantity.word()], message, remedy));
         }
         if refused.is_empty() {

@@ -25,15 +25,17 @@ use crate::spline::{BsplineCurve, BsplineSurface};
 const STEP: f64 = 1e-5;
 /// Most programs.
 const STEPS: usize = 40;
+/// Parts of the way to the targets that a step tries.
+const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 /// Relative residual from which the last correction takes over.
 const NEAR: f64 = 1e-6;
 /// Relative residual at which a target is met.
 pub(super) const MET: f64 = 1e-10;
 /// A weight below this is none.
-const NO_WEIGHT: f64 = 1e-9;
+const NO_WEIGHT: f64 = 1e-12;
 /// Largest logarithm of the change of a free dimension: a factor of 1.5.
 const MOST_CHANGE: f64 = 0.405_465_108_108_164_4;
-/// Part of an interval by which it is said to hold a value beyond its ends.
+/// Most linear programs for the end of an interval.
 const PROGRAMS_OF_END: usize = 12;
 
 /// Weights and logarithms of the changes of the free dimensions.
@@ -218,7 +220,10 @@ impl Blending<'_> {
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let (at, slopes) = self.tangents(&mix)?;
-            let next = self.step(&mix, &at, &slopes, None)?;
+            // Tangents may leave no way to the targets that the blends themselves have: a part of it then.
+            let part = |part: f64| at.iter().map(|residual| part * residual).collect::<Vec<_>>();
+            let steps = PARTS.iter().map(|way| self.step(&mix, &part(*way), &slopes, None));
+            let next = steps.into_iter().find(Result::is_ok).unwrap_or(Err(Failed::Infeasible))?;
             let moved = next.weights.iter().zip(&mix.weights).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             mix = next;
             last = moved;
@@ -226,8 +231,9 @@ impl Blending<'_> {
                 break;
             }
         }
-        if last > 1e-3 {
-            return Err(Failed::Astray(size(&self.residuals(&self.hull(&mix)?)?)));
+        let left = size(&self.residuals(&self.hull(&mix)?)?);
+        if last > 1e-3 || left > 1e-4 {
+            return Err(Failed::Infeasible);
         }
         self.corrected(mix)
     }
@@ -266,7 +272,23 @@ impl Blending<'_> {
         if best.1 > MET { Err(Failed::Astray(best.1)) } else { Ok(best.0) }
     }
 
-    /// What `quantity` can be with the other targets met; none where they alone are infeasible.
+    /// A value as it is stated: volumes as C_B, and centres in parts of L_PP, where the request states them so.
+    pub(super) fn measured(&self, quantity: Quantity, value: f64, reference: &Reference) -> f64 {
+        value / self.measure(quantity, reference)
+    }
+
+    /// The unit of that value.
+    pub(super) fn measure(&self, quantity: Quantity, reference: &Reference) -> f64 {
+        let in_parts = |centre: Option<[f64; 2]>| centre.is_some_and(|[share, _]| share != 0.0);
+        match quantity {
+            Quantity::Volume if self.request.block_coefficient.is_some() => reference.volume(),
+            Quantity::Lcb if in_parts(self.request.centres[0]) => reference.between,
+            Quantity::Lcf if in_parts(self.request.centres[1]) => reference.between,
+            _ => 1.0,
+        }
+    }
+
+    /// What `quantity` can be with the other targets met, as it is stated; none where they alone are infeasible.
     pub(super) fn interval(&self, quantity: Quantity) -> Option<Interval> {
         let others = self.quantities.iter().copied().filter(|other| *other != quantity).collect();
         let rest = Blending { quantities: others, ..*self };
@@ -279,7 +301,8 @@ impl Blending<'_> {
     fn extreme(&self, quantity: Quantity, way: f64) -> Option<f64> {
         let value = |mix: &Mix| {
             let hull = self.hull(mix).ok()?;
-            Some(value_of(quantity, &hull, &Reference::of(&hull, self.conventions)?))
+            let reference = Reference::of(&hull, self.conventions)?;
+            Some(self.measured(quantity, value_of(quantity, &hull, &reference), &reference))
         };
         let mut mix = if self.quantities.is_empty() { self.even() } else { self.solve().ok()? };
         let mut best = value(&mix)?;
@@ -293,7 +316,12 @@ impl Blending<'_> {
             let towards: Vec<f64> = (0..ways).map(slope).collect::<Option<_>>()?;
             let size = towards.iter().map(|s| s.abs()).fold(1e-300, f64::max);
             let towards: Vec<f64> = towards.iter().map(|s| s / size).collect();
-            let Ok(next) = self.step(&mix, &at, &slopes, Some(&towards)) else { break };
+            let Ok(mut next) = self.step(&mix, &at, &slopes, Some(&towards)) else { break };
+            if !self.quantities.is_empty() {
+                // The program meets the others by their tangents alone.
+                let Ok(corrected) = self.corrected(next) else { break };
+                next = corrected;
+            }
             let found = value(&next)?;
             if way * (best - found) <= 1e-12 * best.abs() {
                 break;

@@ -272,8 +272,12 @@ pub(super) fn read(
         kept.reverse();
     }
     // `forward of transom` counts from the transom.
-    let counts_from = |row: &Row<'_>| words(&row.name).iter().rev().map(|word| end_of(word)).find(|end| *end != 0);
-    let from = positions_row.map(|row| counts_from(row).unwrap_or(0));
+    let counts_from = |row: &Row<'_>| {
+        let words = words(&row.name);
+        let behind = words.iter().position(|word| word == "from" || word == "of").map_or(0, |at| at + 1);
+        words[behind..].iter().find(|word| *word != "the").map_or(0, |word| end_of(word))
+    };
+    let from = positions_row.map(counts_from);
     if turn(&mut table, settings, from, reader.problems) {
         kept.reverse();
     }

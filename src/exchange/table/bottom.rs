@@ -12,6 +12,8 @@ const SHARE: f64 = 0.01;
 /// Least waterplane of a hull that goes on below it, over the greatest.
 const WATERPLANE: f64 = 0.01;
 
+/// Part of the greatest half-breadth up to which a first point is the siding of a keel.
+const SIDING: f64 = 0.15;
 /// Least half-breadth of the first point of a section that does not close, over that of the hull.
 const OPEN: f64 = 0.05;
 
@@ -108,7 +110,7 @@ fn to_keel(table: &OffsetTable, first: usize) -> f64 {
 /// where it may be more than [`SHARE`] of the volume. A keel has a bottom as broad as its siding.
 fn below_points(table: &OffsetTable, problems: &mut Problems) {
     let is_keel = |name: &str| ["keel", "rabbet", "siding"].iter().any(|word| name.contains(word));
-    if table.form.boat_lines.iter().any(|line| is_keel(&line.name)) {
+    if table.form.boat_lines.iter().any(|line| is_keel(&line.name) && !line.name.contains("bilge")) {
         return;
     }
     let points = || table.stations.iter().flat_map(|station| &station.outlines).flatten();
@@ -129,7 +131,7 @@ fn below_points(table: &OffsetTable, problems: &mut Problems) {
         let point = first.outlines[0][0];
         let message = format!(
             "{} begin beside the centreplane and rise from there, as that at x = {:.3} m, whose first point is ({:.3}, {:.3}): what \
-             is below does not count, but for a level line to the centreplane. Continued to the centreplane the hull has {:.1} % more",
+             is below does not count, but for a level line to the centreplane. Continued to the centreplane the hull has up to {:.1} % more",
             counted(open, "section"),
             first.station.x,
             point.y,
@@ -150,7 +152,9 @@ fn open_area(station: &StationOffsets, greatest: f64) -> f64 {
     if closed || first.y <= OPEN * greatest || rises <= LEVEL {
         return 0.0;
     }
-    let above = others.first().map_or(rises, |third| slope(second, third)).max(0.0);
+    // A siding is narrow; beside a broad first point the slope is that of the bottom itself.
+    let siding = first.y <= SIDING * greatest;
+    let above = others.first().filter(|_| siding).map_or(rises, |third| slope(second, third)).max(0.0);
     0.5 * first.y * first.y * rises.min(above).min(STEEPEST)
 }
 

@@ -284,11 +284,20 @@ impl Corner {
             .flatten();
         // Per cent of the length are numbers of a hundred stations.
         let of_length = ["lpp", "lbp", "length"].iter().any(|word| lower.contains(word));
-        let is_share = of_length && ["%", "per cent", "percent"].iter().any(|word| lower.contains(word));
+        let before = lower.split(['%']).next().unwrap_or("").trim_end();
+        let counted = before.len() < lower.len() && before.ends_with(|c: char| c.is_ascii_digit());
+        let of_stations = rows.is_none_or(Axis::is_station)
+            && !["breadth", "height", "offset", "ordinate"].iter().any(|word| lower.contains(word));
+        let is_share = of_length
+            && of_stations
+            && !counted
+            && ["%", "per cent", "percent"].iter().any(|word| lower.contains(word));
         let is_part = ["x/lpp", "x/lbp", "x / lpp"].iter().any(|words| lower.starts_with(words));
         let (rows, spaces) = match (is_share, is_part) {
             (true, _) => (Some(Axis::Station), Some(100.0)),
             (false, true) => (Some(Axis::Station), Some(1.0)),
+            // A spacing of so many per cent.
+            (false, false) if counted && of_length => (rows, spaces.map(|share: f64| 100.0 / share)),
             (false, false) => (rows, spaces),
         };
         // `Distance from stem`, and `x aft`.

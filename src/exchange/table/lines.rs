@@ -10,6 +10,7 @@ mod across;
 mod along;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use super::super::cad::{CadCurve, CadSurfaces, Drawing, is_dxf, is_iges, read_dxf, read_iges};
 use super::body::drawing_unit;
@@ -41,13 +42,16 @@ struct Source {
     curves: Vec<CadCurve>,
     unit: Option<f64>,
     notes: Vec<String>,
+    /// Surfaces that are not read: layer, kind and how many.
+    surfaces: Vec<(String, String, usize)>,
 }
 
 /// The curves of a file that has nothing else; none when it is no such file.
-fn source(bytes: &[u8]) -> Option<Source> {
-    if is_dxf(bytes) {
-        let Drawing { curves, unit, notes, parts } = read_dxf(bytes).ok()?;
-        return parts.is_empty().then_some(Source { kind: "DXF", curves, unit, notes });
+fn source(name: &str, bytes: &[u8]) -> Option<Source> {
+    let has_ending = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("dxf"));
+    if is_dxf(bytes) || has_ending {
+        let Drawing { curves, unit, notes, parts, surfaces } = read_dxf(bytes).ok()?;
+        return parts.is_empty().then_some(Source { kind: "DXF", curves, unit, notes, surfaces });
     }
     if !is_iges(bytes) {
         return None;
@@ -55,7 +59,7 @@ fn source(bytes: &[u8]) -> Option<Source> {
     let CadSurfaces { surfaces, unit, curves, notes, body, unread } = read_iges(bytes).ok()?;
     let others = !surfaces.is_empty() || !body.faces.is_empty() || !unread.is_empty();
     let unit = unit.or(Some(1.0));
-    (!others && !curves.is_empty()).then_some(Source { kind: "IGES", curves, unit, notes })
+    (!others && !curves.is_empty()).then_some(Source { kind: "IGES", curves, unit, notes, surfaces: Vec::new() })
 }
 
 /// A curve in the ship's frame.
@@ -92,7 +96,7 @@ fn range(points: &[[f64; 3]], axis: usize) -> [f64; 2] {
 
 /// The table of a file of curves, with the conventions beside it; none when it is no such file, or has surfaces.
 pub(super) fn read(name: &str, bytes: &[u8], sidecar: &[(&str, &str)]) -> Option<Result<ReadTable, Vec<TableProblem>>> {
-    let source = source(bytes)?;
+    let source = source(name, bytes)?;
     let mut problems = Problems::new(name);
     let mut settings = Settings::default();
     for (name, text) in sidecar {
@@ -118,11 +122,12 @@ pub(super) fn read(name: &str, bytes: &[u8], sidecar: &[(&str, &str)]) -> Option
 
 /// The chosen curves in the ship's frame.
 fn lines(source: Source, settings: &Settings, problems: &mut Problems) -> Option<Vec<SpaceCurve>> {
-    let Source { kind, mut curves, unit, notes } = source;
+    let Source { kind, mut curves, unit, notes, surfaces } = source;
     notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
     problems.note(format!("{} ({kind}) without surfaces", counted(curves.len(), "curve")));
     let unit = drawing_unit(unit, settings, problems);
-    let mut layers: Vec<&str> = curves.iter().map(|curve| curve.layer.as_str()).filter(|l| !l.is_empty()).collect();
+    let all = curves.iter().map(|curve| &curve.layer).chain(surfaces.iter().map(|(layer, ..)| layer));
+    let mut layers: Vec<&str> = all.map(String::as_str).filter(|layer| !layer.is_empty()).collect();
     layers.sort_unstable();
     layers.dedup();
     if !layers.is_empty() {
@@ -132,6 +137,17 @@ fn lines(source: Source, settings: &Settings, problems: &mut Problems) -> Option
     let left: Vec<String> =
         layers.iter().zip(chosen).filter(|(_, chosen)| !chosen).map(|(layer, _)| (*layer).to_owned()).collect();
     curves.retain(|curve| left.binary_search(&curve.layer).is_err());
+    let mut unread: BTreeMap<&str, usize> = BTreeMap::new();
+    for (_, kind, count) in surfaces.iter().filter(|(layer, ..)| left.binary_search(layer).is_err()) {
+        *unread.entry(kind).or_default() += count;
+    }
+    if !unread.is_empty() {
+        let kinds: Vec<String> = unread.into_iter().map(|(kind, count)| format!("{count} of {kind}")).collect();
+        let message = format!("{}: data of ACIS, which are not read; the hull may be theirs", kinds.join(", "));
+        let remedy = "Export STEP, IGES or a mesh, or name the layers of the curves with --parts";
+        problems.error("E352", FilePosition::FILE, message, remedy);
+        return None;
+    }
     let bounds = bounds(&curves)?;
     let extents = [0, 1, 2].map(|k| bounds[1][k] - bounds[0][k]);
     let longest = extents.into_iter().fold(0.0, f64::max);
@@ -222,13 +238,14 @@ fn sections(lines: &[SpaceCurve], problems: &mut Problems) -> Vec<Section> {
     let slack = FLAT * size;
     let planes = Planes::of(lines, slack);
     let along = Along::of(&planes, size);
-    let mut list = across::sections(&planes.across, size, problems);
+    let (mut list, dropped) = across::sections(&planes.across, size, problems);
     let of_waterlines = along.heights() >= LEAST_WATERLINES && list.len() < LEAST_SECTIONS;
     let mut left: Vec<&SpaceCurve> = planes.others.iter().copied().filter(|line| !along.uses(line)).collect();
     if of_waterlines {
         left.extend(&planes.across);
         list = along.sections(problems);
     } else if list.len() >= 2 {
+        left_out(&dropped, "on layers of few sections", problems);
         let closed = along.close(&mut list, problems);
         left.extend(planes.level.iter().filter(|line| !closed && !along.uses(line)));
     } else {
@@ -243,15 +260,23 @@ fn sections(lines: &[SpaceCurve], problems: &mut Problems) -> Vec<Section> {
         problems.error("E328", place, message, "Give surfaces, or curves in such planes.");
         return Vec::new();
     }
-    if !left.is_empty() && !list.is_empty() {
-        let mut layers: BTreeMap<&str, usize> = BTreeMap::new();
-        left.iter().filter(|line| !line.layer.is_empty()).for_each(|l| *layers.entry(&l.layer).or_default() += 1);
-        let layers: Vec<String> = layers.into_iter().map(|(layer, count)| format!("{layer} {count}")).collect();
-        let of = if layers.is_empty() { String::new() } else { format!(" ({})", named(layers)) };
-        let message = format!("left out: {}, in no plane of a section{of}", counted(left.len(), "curve"));
-        problems.warning("W332", FilePosition::FILE, message, "");
+    if !list.is_empty() {
+        left_out(&left, "in no plane of a section", problems);
     }
     list
+}
+
+/// Says which curves are left out, and why.
+fn left_out(left: &[&SpaceCurve], why: &str, problems: &mut Problems) {
+    if left.is_empty() {
+        return;
+    }
+    let mut layers: BTreeMap<&str, usize> = BTreeMap::new();
+    left.iter().filter(|line| !line.layer.is_empty()).for_each(|l| *layers.entry(&l.layer).or_default() += 1);
+    let layers: Vec<String> = layers.into_iter().map(|(layer, count)| format!("{layer} {count}")).collect();
+    let of = if layers.is_empty() { String::new() } else { format!(" ({})", named(layers)) };
+    let message = format!("left out: {}, {why}{of}", counted(left.len(), "curve"));
+    problems.warning("W332", FilePosition::FILE, message, "");
 }
 
 #[cfg(test)]

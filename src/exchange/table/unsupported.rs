@@ -4,9 +4,8 @@
 //! a text of that kind begins with. One message about the kind helps more than one about each of its lines.
 
 /// First bytes of a kind of file.
-const FIRST_BYTES: [(&[u8], &str); 11] = [
+const FIRST_BYTES: [(&[u8], &str); 10] = [
     (b"<VTKFile", "a mesh (VTK), which needs the feature `packages` of the library"),
-    (b"3D Geometry File Format", "a Rhinoceros file (3dm)"),
     (b"\x1f\x8b", "a file compressed by gzip"),
     (b"BZh", "a file compressed by bzip2"),
     (b"\xfd7zXZ\0", "a file compressed by xz"),
@@ -19,7 +18,7 @@ const FIRST_BYTES: [(&[u8], &str); 11] = [
 ];
 
 /// Endings of names of files that are no text, or none that we read.
-const ENDINGS: [(&str, &str); 2] = [(".3dm", "a Rhinoceros file (3dm)"), (".dwg", DWG)];
+const ENDINGS: [(&str, &str); 1] = [(".dwg", DWG)];
 
 /// Drawings of a form that is not published.
 pub(super) const DWG: &str = "a drawing (DWG)";

@@ -231,7 +231,7 @@ pub(super) const TABLES: [Explanation; 33] = [
     Explanation {
         code: "E352",
         title: "Faces that cannot be read",
-        cause: "A STEP, IGES or 3DM file has faces of kinds or with edges that the program does not read. A hull without \
+        cause: "A STEP, IGES, 3DM or DXF file has faces of kinds or with edges that the program does not read. A hull without \
          them would be wrong.",
         example: "A face whose edge meets a pole of its surface and has no curve of parameters.",
         remedy: "Convert these faces to B-splines in the program that they come from, or give a mesh.",

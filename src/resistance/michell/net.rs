@@ -8,7 +8,7 @@
 //! so that the wave resistance is a quadratic form c'Gc in the control values c. Both integrals are closed where x and z
 //! are linear in the parameter of a span; elsewhere the span is halved until a Legendre series follows to 1e-12.
 
-use super::panel::{Moments, Panel, oscillation, panels};
+use super::panel::{Moments, Panel, TERMS, oscillation, panels};
 use crate::hull::Hull;
 use crate::spline::{BsplineCurve, KnotVector, MAX_DEGREE};
 
@@ -29,6 +29,9 @@ impl Axis {
     pub(super) fn new(coordinate: &BsplineCurve<1>, slopes: bool, end: f64) -> Self {
         let knots: &KnotVector = coordinate.knots();
         let mut list = Vec::new();
+        let along = coordinate.points().iter().map(|p| p[0]);
+        let size = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        let size = size[1] - size[0];
         for span in knots.spans() {
             let (from, to) = (knots.knots()[span], knots.knots()[span + 1].min(end));
             if to <= from {
@@ -41,6 +44,17 @@ impl Axis {
                 let along = |row: &[f64; FUNCTIONS]| points.iter().zip(row).map(|(p, b)| p[0] * b).sum::<f64>();
                 (along(&value), along(&slope), if slopes { slope } else { value })
             };
+            let [start, stop] = [sample(from).0, sample(to).0];
+            if (stop - start).abs() <= 1e-9 * size {
+                // x stands still: the functions jump there, and have no height.
+                let values = [from, to].map(|t| knots.basis(span, t));
+                let mut series = [[0.0; TERMS]; FUNCTIONS];
+                series.iter_mut().enumerate().for_each(|(n, terms)| terms[0] = 0.5 * (values[1][n] - values[0][n]));
+                if slopes {
+                    list.push((first, Panel { middle: start, half: 0.0, series, count: 1 }));
+                }
+                continue;
+            }
             list.extend(panels(&sample, [from, to], slopes, TOLERANCE).into_iter().map(|panel| (first, panel)));
         }
         Self { panels: list, functions: knots.degree() + 1, count: knots.basis_count() }

@@ -83,12 +83,15 @@ pub(super) fn ellipse(record: &Record<'_>, faults: &mut Faults) -> Vec<[f64; 3]>
 /// A vertex of a plane polyline and its bulge, the tangent of a quarter of the angle of the arc to the next.
 pub(super) type Bulged = ([f64; 2], f64);
 
-/// The points of a plane polyline at its height, before the motion of its normal.
+/// The points of a plane polyline at its height, before the motion of its normal; little more than [`MOST_POINTS`].
 pub(super) fn bulged(vertices: &[Bulged], closed: bool, height: f64, place: &Motion) -> Vec<[f64; 3]> {
     let Some(&(first, _)) = vertices.first() else { return Vec::new() };
     let mut points: Vec<[f64; 2]> = vec![first];
     let ends = vertices.iter().skip(1).chain(closed.then_some(&vertices[0]));
     for (&([ax, ay], bulge), &([bx, by], _)) in vertices.iter().zip(ends) {
+        if points.len() > MOST_POINTS {
+            break;
+        }
         let (dx, dy) = (bx - ax, by - ay);
         if bulge.abs() > 1e-12 && dx.hypot(dy) > 0.0 {
             // The centre lies off the middle of the chord, to the left of an arc below half a turn.

@@ -16,6 +16,9 @@ const DEEPEST: usize = 16;
 /// Inserts of a drawing at most, those inside blocks among them.
 pub(super) const MOST_INSERTS: usize = 100_000;
 
+/// Entities and inserts at most, each as often as its block is inserted.
+const MOST_VISITED: usize = 20_000_000;
+
 /// A block at a place of a drawing.
 #[derive(Debug)]
 pub(super) struct Insert {
@@ -71,12 +74,14 @@ pub(super) struct Expanded {
     pub(super) faces: Vec<(usize, Corners)>,
     /// Curves with their layers and lines.
     pub(super) curves: Vec<(usize, usize, Vec<[f64; 3]>)>,
-    pub(super) unread: BTreeMap<String, usize>,
+    /// Entities that are not read, by their layers and kinds.
+    pub(super) unread: BTreeMap<(usize, String), usize>,
     /// Entities on layers that are off or frozen.
     pub(super) hidden: usize,
     pub(super) subdivided: usize,
-    /// Inserts of blocks that are not there.
+    /// Inserts of blocks that are not there, or in other files.
     pub(super) missing: usize,
+    visited: usize,
     inserts: usize,
     points: usize,
 }
@@ -99,6 +104,11 @@ impl Expanded {
         depth: usize,
         faults: &mut Faults,
     ) -> bool {
+        self.visited += 1 + block.drawn.len() + block.unread.len() + block.inserts.len();
+        if self.visited > MOST_VISITED {
+            faults.add(None, "", format!("more than {MOST_VISITED} entities, with those of inserted blocks"));
+            return false;
+        }
         let resolved = |own: usize| layer.filter(|_| own == 0).unwrap_or(own);
         for (own, line, drawn) in &block.drawn {
             let layer = resolved(*own);
@@ -129,8 +139,13 @@ impl Expanded {
             faults.add(Some(*line).filter(|line| *line > 0), "", most);
             return false;
         }
-        for (kind, count) in &block.unread {
-            *self.unread.entry(kind.clone()).or_default() += count;
+        for ((own, kind), count) in &block.unread {
+            let layer = resolved(*own);
+            if layers.list[layer].hidden {
+                self.hidden += count;
+            } else {
+                *self.unread.entry((layer, kind.clone())).or_default() += count;
+            }
         }
         self.subdivided += block.subdivided;
         block.inserts.iter().all(|insert| {
@@ -139,7 +154,7 @@ impl Expanded {
                 self.hidden += 1;
                 return true;
             }
-            let Some(inner) = blocks.get(&insert.name) else {
+            let Some(inner) = blocks.get(&insert.name).filter(|inner| !inner.is_elsewhere()) else {
                 self.missing += 1;
                 return true;
             };

@@ -1,6 +1,7 @@
 //! The faces of a DXF file as triangles: 3DFACE, polyface and polygon meshes (POLYLINE), and the base faces of MESH.
 
 use super::super::super::fault::Faults;
+use super::super::surfaces::MOST_POINTS;
 use super::curves::{Bulged, bulged, upright};
 use super::groups::Record;
 use crate::hull::Motion;
@@ -135,6 +136,11 @@ impl Polyline {
         });
     }
 
+    /// Whether it is a curve of more points than a drawing has.
+    pub(super) fn is_too_long(&self) -> bool {
+        self.flags & (MESH | POLYFACE) == 0 && self.vertices.len() > MOST_POINTS
+    }
+
     /// What it draws.
     pub(super) fn finish(self, faults: &mut Faults) -> Drawn {
         if self.flags & POLYFACE != 0 {
@@ -186,6 +192,10 @@ impl Polyline {
         if rows.checked_mul(columns) != Some(points.len()) {
             let message = format!("{} vertices of a mesh of {rows} by {columns}", points.len());
             faults.add(self.line, "POLYLINE", message);
+            return Vec::new();
+        }
+        // Rows of no columns are as many as the file states.
+        if points.is_empty() {
             return Vec::new();
         }
         let ends = [self.flags & CLOSED != 0, self.flags & CLOSED_ACROSS != 0];

@@ -13,7 +13,7 @@ const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 /// Groups of a record at most: the vertices of a polyline are two or three each.
 const MOST_GROUPS: usize = 8_000_000;
 
-/// Lines of comments before the first section in which a text is still recognised.
+/// Lines of comments before the first section that are looked at.
 const COMMENTS: usize = 200;
 
 /// The value of a group.
@@ -307,12 +307,11 @@ pub(in super::super::super) fn is_dxf(bytes: &[u8]) -> bool {
     }
     let mut records = Records::of(&bytes[..bytes.len().min(64 * 1024)]);
     let mut faults = Faults::default();
-    for _ in 0..COMMENTS {
+    loop {
         match records.group(&mut faults) {
             Some(Group { code: 999, .. }) => {}
             Some(group) => return group.code == 0 && group.text() == "SECTION",
             None => return false,
         }
     }
-    false
 }

@@ -17,7 +17,7 @@ use crate::hull::TriangleMesh;
 use crate::units::counted;
 
 /// Entities that draw no hull, and need no mention.
-const SILENT: [&str; 24] = [
+const SILENT: [&str; 25] = [
     "ACAD_TABLE",
     "ATTDEF",
     "ATTRIB",
@@ -39,6 +39,7 @@ const SILENT: [&str; 24] = [
     "SUN",
     "TEXT",
     "TOLERANCE",
+    "VERTEX",
     "VIEWPORT",
     "WIPEOUT",
     "XLINE",
@@ -58,6 +59,9 @@ const ACIS: [&str; 10] = [
     "SWEPTSURFACE",
 ];
 
+/// Flags of blocks that are references to other files, and overlays of them.
+const EXTERNAL: i64 = 4 | 8;
+
 /// Layers of a file at most.
 const MOST_LAYERS: usize = 100_000;
 
@@ -68,6 +72,8 @@ pub(in super::super::super) struct Drawing {
     pub(in super::super::super) parts: Vec<(String, TriangleMesh)>,
     /// Curves, of a file without faces.
     pub(in super::super::super) curves: Vec<CadCurve>,
+    /// Surfaces and solids that are not read, beside curves: layer, kind and how many.
+    pub(in super::super::super) surfaces: Vec<(String, String, usize)>,
     /// Metres in the unit of the file, where it is stated.
     pub(in super::super::super) unit: Option<f64>,
     /// What of the file is not used, in words.
@@ -113,10 +119,19 @@ pub(super) struct Block {
     /// With the number of the layer and the line.
     pub(super) drawn: Vec<(usize, usize, Drawn)>,
     pub(super) inserts: Vec<Insert>,
-    /// Entities that are not read, by their kinds.
-    pub(super) unread: BTreeMap<String, usize>,
+    /// Entities that are not read, by their layers and kinds.
+    pub(super) unread: BTreeMap<(usize, String), usize>,
     /// Meshes that are read without their subdivision.
     pub(super) subdivided: usize,
+    /// A reference to another file.
+    external: bool,
+}
+
+impl Block {
+    /// Whether its entities are in another file.
+    pub(super) fn is_elsewhere(&self) -> bool {
+        self.external && self.drawn.is_empty() && self.inserts.is_empty() && self.unread.is_empty()
+    }
 }
 
 /// The state of reading.
@@ -130,8 +145,9 @@ struct Reader {
     /// A polyline whose vertices follow: its layer, its line.
     open: Option<(usize, usize, Polyline)>,
     unit: Option<f64>,
-    /// Points and corners so far.
+    /// Points and corners so far, and points of curves.
     points: usize,
+    curve_points: usize,
     ended: bool,
 }
 
@@ -156,6 +172,7 @@ pub(in super::super::super) fn read_dxf(bytes: &[u8]) -> Result<Drawing, Vec<Rec
         open: None,
         unit: comments.iter().find_map(|comment| unit::of_comment(comment)),
         points: 0,
+        curve_points: 0,
         ended: false,
     };
     reader.layers.number("0");
@@ -183,12 +200,15 @@ fn drawing(
     mut faults: Faults,
 ) -> Result<Drawing, Vec<RecordFault>> {
     let Expanded { faces, curves, unread, hidden, subdivided, missing, .. } = found;
+    let is_acis = |kind: &str| ACIS.contains(&kind);
     let list = |of: &dyn Fn(&str) -> bool| {
-        let kinds: Vec<String> =
-            unread.iter().filter(|(kind, _)| of(kind)).map(|(kind, count)| format!("{count} of {kind}")).collect();
+        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        let counted = unread.iter().filter(|((_, kind), _)| of(kind));
+        counted.for_each(|((_, kind), count)| *kinds.entry(kind).or_default() += count);
+        let kinds: Vec<String> = kinds.into_iter().map(|(kind, count)| format!("{count} of {kind}")).collect();
         kinds.join(", ")
     };
-    let acis = list(&|kind| ACIS.contains(&kind));
+    let acis = list(&is_acis);
     if faults.list.is_empty() && faces.is_empty() && curves.is_empty() {
         let message = if acis.is_empty() {
             let kinds = list(&|_| true);
@@ -200,6 +220,12 @@ fn drawing(
             format!("its surfaces are data of ACIS, which are not read ({acis}): export STEP, IGES or a mesh")
         };
         faults.add(None, "", message);
+    } else if faults.list.is_empty() && !faces.is_empty() && !acis.is_empty() {
+        let message = format!(
+            "{acis}: data of ACIS beside faces, without which the body is not whole: turn off their layers, or export \
+             STEP, IGES or a mesh"
+        );
+        faults.add(None, "", message);
     }
     let mut notes = Vec::new();
     if !(faces.is_empty() || curves.is_empty()) {
@@ -208,13 +234,13 @@ fn drawing(
     for (count, rest) in [
         (hidden, "entities on layers that are off or frozen: not read"),
         (subdivided, "of MESH with smooth subdivision: their base faces are read, which lie off the smooth ones"),
-        (missing, "of INSERT name blocks that the file does not hold: not read"),
+        (missing, "of INSERT name blocks that the file does not hold, or references to other files: not read"),
     ] {
         if count > 0 {
             notes.push(format!("{count} {rest}"));
         }
     }
-    let kinds = list(&|_| true);
+    let kinds = list(&|kind| !is_acis(kind));
     if !kinds.is_empty() {
         notes.push(format!("entities that are not read: {kinds}"));
     }
@@ -222,6 +248,8 @@ fn drawing(
     let is_mesh = !faces.is_empty();
     faces.into_iter().for_each(|(layer, corners)| parts.entry(layer).or_default().push(corners));
     let name = |layer: usize| layers.list[layer].name.clone();
+    let surfaces = unread.iter().filter(|((_, kind), _)| is_acis(kind));
+    let surfaces = surfaces.map(|((layer, kind), &count)| (name(*layer), kind.clone(), count)).collect();
     let curve = |(layer, line, points): (usize, usize, Vec<[f64; 3]>)| CadCurve { line, points, layer: name(layer) };
     faults.or(|| Drawing {
         parts: parts
@@ -229,6 +257,7 @@ fn drawing(
             .map(|(layer, list)| (name(layer), TriangleMesh::from_corners(list.into_iter())))
             .collect(),
         curves: if is_mesh { Vec::new() } else { curves.into_iter().map(curve).collect() },
+        surfaces,
         unit,
         notes,
     })
@@ -242,6 +271,9 @@ impl Reader {
             if kind == "VERTEX" {
                 polyline.add(record, faults);
                 self.count(1, record, faults);
+                if polyline.is_too_long() {
+                    self.too_many(record, MOST_POINTS, faults);
+                }
                 self.open = Some((layer, line, polyline));
                 return;
             }
@@ -270,7 +302,8 @@ impl Reader {
             ("BLOCK", "BLOCKS") => {
                 let name = record.text(2).to_ascii_uppercase();
                 let base = record.point(10, faults).unwrap_or_default();
-                self.blocks.insert(name.clone(), Block { base, ..Block::default() });
+                let external = record.whole(70, faults) & EXTERNAL != 0;
+                self.blocks.insert(name.clone(), Block { base, external, ..Block::default() });
                 self.block = Some(name);
             }
             ("ENDBLK", _) => self.block = None,
@@ -303,9 +336,13 @@ impl Reader {
     fn count(&mut self, points: usize, record: &Record<'_>, faults: &mut Faults) {
         self.points += points;
         if self.points > 20 * MOST_POINTS {
-            faults.add(record.line(), &record.kind(), format!("more than {} points", 20 * MOST_POINTS));
-            self.ended = true;
+            self.too_many(record, 20 * MOST_POINTS, faults);
         }
+    }
+
+    fn too_many(&mut self, record: &Record<'_>, most: usize, faults: &mut Faults) {
+        faults.add(record.line(), &record.kind(), format!("more than {most} points"));
+        self.ended = true;
     }
 
     fn put(&mut self, layer: usize, line: usize, drawn: Drawn, record: &Record<'_>, faults: &mut Faults) {
@@ -314,6 +351,12 @@ impl Reader {
             Drawn::Faces(list) => (3 * list.len(), !list.is_empty()),
         };
         self.count(points, record, faults);
+        if matches!(drawn, Drawn::Curve(_)) {
+            self.curve_points += points;
+            if self.curve_points > MOST_POINTS {
+                self.too_many(record, MOST_POINTS, faults);
+            }
+        }
         if any {
             self.target().drawn.push((layer, line, drawn));
         }
@@ -332,7 +375,7 @@ impl Reader {
             "LWPOLYLINE" => Drawn::Curve(light_polyline(record, faults)),
             "ARC" | "CIRCLE" => Drawn::Curve(arc(record, kind == "CIRCLE", faults)),
             "ELLIPSE" => Drawn::Curve(ellipse(record, faults)),
-            "SPLINE" | "HELIX" => Drawn::Curve(spline(record, faults)),
+            "SPLINE" => Drawn::Curve(spline(record, faults)),
             "3DFACE" => Drawn::Faces(face(record, faults)),
             "MESH" => {
                 let (faces, level) = mesh(record, faults);
@@ -350,7 +393,7 @@ impl Reader {
             }
             kind if SILENT.contains(&kind) => return,
             kind => {
-                *self.target().unread.entry(kind.chars().take(40).collect()).or_default() += 1;
+                *self.target().unread.entry((layer, kind.chars().take(40).collect())).or_default() += 1;
                 return;
             }
         };

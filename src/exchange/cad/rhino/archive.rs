@@ -1,5 +1,7 @@
 //! The tables of an archive: its unit, its layers and its objects.
 
+use std::collections::HashMap;
+
 use super::chunks::{class, code};
 use super::cursor::{Chunk, Cursor, Object};
 
@@ -9,6 +11,10 @@ pub(super) const MAGIC: &[u8] = b"3D Geometry File Format ";
 /// Most layers, and layers of layers.
 const MOST_LAYERS: usize = 100_000;
 const DEEPEST: usize = 64;
+
+/// Most characters of the name of a layer, and of its name with those that it is part of, but for the last one.
+const LONGEST_NAME: usize = 200;
+const LONGEST_PATH: usize = 1000;
 
 /// Most objects.
 const MOST_OBJECTS: usize = 1_000_000;
@@ -95,6 +101,8 @@ pub(super) struct Tables<'a> {
     pub(super) unit: Option<f64>,
     pub(super) layers: Vec<Layer>,
     pub(super) records: Vec<Record<'a>>,
+    /// Layers by their numbers in the file; of several with one number the first.
+    numbered: HashMap<i32, usize>,
 }
 
 /// The version that an archive states.
@@ -107,13 +115,21 @@ fn version(bytes: &[u8]) -> Option<u32> {
 /// # Errors
 /// What stands in the way.
 pub(super) fn tables(bytes: &[u8]) -> Result<Tables<'_>, String> {
+    if !bytes.starts_with(MAGIC) {
+        return Err("no 3DM file, by its first words".to_owned());
+    }
     let archive =
         version(bytes).ok_or("the file states no version behind its first words: it is damaged".to_owned())?;
     if archive < 2 {
         return Err("an archive of version 1, of Rhino 1; versions 2 to 8 are read".to_owned());
     }
-    let mut tables =
-        Tables { versions: Versions { archive, toolkit: 0 }, unit: None, layers: Vec::new(), records: Vec::new() };
+    let mut tables = Tables {
+        versions: Versions { archive, toolkit: 0 },
+        unit: None,
+        layers: Vec::new(),
+        records: Vec::new(),
+        numbered: HashMap::new(),
+    };
     let mut rest = Cursor::new(&bytes[MAGIC.len() + 8..], archive >= 50);
     let mut ended = false;
     while !rest.is_at_end() && !ended {
@@ -189,7 +205,7 @@ impl<'a> Tables<'a> {
         let mut layer = Layer { visible: data.int()? != 1, index: data.int()?, ..Layer::default() };
         // Level, material, an old number, colour, style of lines.
         data.take(4 + 4 + 4 + 4 + 20)?;
-        layer.name = data.text()?;
+        layer.name = data.text()?.chars().take(LONGEST_NAME).collect();
         if minor >= 1 {
             layer.visible = data.flag()?;
         }
@@ -201,6 +217,7 @@ impl<'a> Tables<'a> {
         if minor >= 6 {
             layer.parent = data.id()?;
         }
+        self.numbered.entry(layer.index).or_insert(self.layers.len());
         self.layers.push(layer);
         Some(())
     }
@@ -208,13 +225,18 @@ impl<'a> Tables<'a> {
     /// Names layers with those that they are part of, and hides them with these.
     fn name_layers(&mut self) {
         let own = self.layers.clone();
-        let by_id: std::collections::HashMap<[u8; 16], usize> =
+        let by_id: HashMap<[u8; 16], usize> =
             own.iter().enumerate().filter(|(_, layer)| layer.id != [0; 16]).map(|(k, layer)| (layer.id, k)).collect();
-        for layer in &mut self.layers {
+        for (number, layer) in self.layers.iter_mut().enumerate() {
             let mut parent = layer.parent;
-            for _ in 0..DEEPEST {
-                let Some(above) = by_id.get(&parent).map(|&k| &own[k]) else { break };
-                layer.name = format!("{}::{}", above.name, layer.name);
+            let mut seen = vec![number];
+            // A layer may be its own parent in a damaged file.
+            while let Some(&k) = by_id.get(&parent).filter(|k| seen.len() <= DEEPEST && !seen.contains(k)) {
+                seen.push(k);
+                let above = &own[k];
+                if layer.name.len() < LONGEST_PATH {
+                    layer.name = format!("{}::{}", above.name, layer.name);
+                }
                 layer.visible &= above.visible;
                 parent = above.parent;
             }
@@ -235,7 +257,7 @@ impl<'a> Tables<'a> {
                 code::CLASS => found.object = next.object(),
                 code::OBJECT_ATTRIBUTES => {
                     let (layer, mode) = attributes(chunk.inside, self.versions)?;
-                    found.layer = self.layers.iter().position(|own| own.index == layer);
+                    found.layer = self.numbered.get(&layer).copied();
                     found.mode = mode;
                 }
                 _ => {}

@@ -10,19 +10,29 @@ use crate::hull::TriangleMesh;
 /// A packed byte stands for this many bytes at most.
 const MOST_PACKED: usize = 1040;
 
+/// Vertices of a face, at most, and those of a mesh of few faces: more are of no ship, and would unpack to much memory.
+const MOST_VERTICES: usize = 12;
+const FEW_VERTICES: usize = 1000;
+
 /// Vertices of 64 bits that leave those of 32 bits by more than this part of a coordinate are old.
 const ALIKE: f64 = 1e-6;
 
-/// Reads a mesh, in the unit of the file.
+/// Reads a mesh, in the unit of the file; `left` is how many triangles more are read of the file.
 ///
 /// # Errors
 /// Why it cannot be read.
-pub(super) fn read(object: &Object<'_>, versions: Versions) -> Result<TriangleMesh, &'static str> {
+pub(super) fn read(object: &Object<'_>, versions: Versions, left: &mut usize) -> Result<TriangleMesh, &'static str> {
     let mut data = object.data.inside;
     let [major, minor] = data.version().ok_or(CUT)?;
     let [vertices, faces] = head(&mut data).ok_or(CUT)?;
     if vertices > 3 * MOST_TRIANGLES || 2 * faces > MOST_TRIANGLES {
         return Err("it has more triangles than are read");
+    }
+    if 2 * faces > *left {
+        return Err("the meshes of the file have more triangles together than are read");
+    }
+    if vertices > MOST_VERTICES * faces + FEW_VERTICES {
+        return Err("it has far more vertices than its faces need");
     }
     let quads = quads(&mut data, faces).ok_or(CUT)?;
     let points = match major {
@@ -34,7 +44,9 @@ pub(super) fn read(object: &Object<'_>, versions: Versions) -> Result<TriangleMe
         _ => return Err("its records have a version that is not read"),
     };
     let points = beside(object).filter(|own| is_alike(own, &points)).unwrap_or(points);
-    triangles(&points, &quads)
+    let mesh = triangles(&points, &quads)?;
+    *left = left.saturating_sub(mesh.triangles.len());
+    Ok(mesh)
 }
 
 const CUT: &str = "its records end within a value";

@@ -8,6 +8,7 @@ use super::surfaces::Patch;
 use super::{extrusion, mesh};
 use crate::exchange::cad::{CadSurfaces, Unread};
 use crate::exchange::fault::RecordFault;
+use crate::exchange::mesh::MOST_TRIANGLES;
 use crate::hull::{Brep, FaceSurface, Motion, TriangleMesh};
 use crate::spline::{BsplineSurface, KnotVector, length, minus};
 
@@ -83,15 +84,16 @@ pub(in super::super::super) fn is_3dm(bytes: &[u8]) -> bool {
 /// What stands in the way of reading its tables; objects that cannot be read are among its objects.
 pub(in super::super::super) fn read_3dm(bytes: &[u8]) -> Result<Model, Vec<RecordFault>> {
     let read = tables(bytes);
-    let Tables { versions, unit, layers, records } =
+    let Tables { versions, unit, layers, records, .. } =
         read.map_err(|message| vec![RecordFault { line: None, found: String::new(), message }])?;
     let mut layers: Vec<ModelLayer> =
         layers.into_iter().map(|layer| ModelLayer { name: layer.name, visible: layer.visible }).collect();
     let nowhere = layers.len();
-    layers.push(ModelLayer { name: String::new(), visible: true });
-    let mut budget = Budget::default();
+    layers.iter_mut().filter(|layer| layer.name.is_empty()).for_each(|layer| "(no name)".clone_into(&mut layer.name));
+    layers.push(ModelLayer { name: "(no layer)".to_owned(), visible: true });
+    let (mut budget, mut triangles) = (Budget::default(), MOST_TRIANGLES);
     let placed = |(number, record): (usize, &Record<'_>)| {
-        let object = object(number, record, versions, &mut budget);
+        let object = object(number, record, versions, (&mut budget, &mut triangles));
         PlacedObject { object, layer: record.layer.unwrap_or(nowhere), hidden: record.mode == Mode::Hidden }
     };
     let seen = records.iter().enumerate().filter(|(_, record)| record.mode != Mode::Defined);
@@ -109,7 +111,12 @@ mod kind {
     pub(super) const EXTRUSION: u32 = 0x4000_0000;
 }
 
-fn object(number: usize, record: &Record<'_>, versions: super::archive::Versions, budget: &mut Budget) -> ModelObject {
+fn object(
+    number: usize,
+    record: &Record<'_>,
+    versions: super::archive::Versions,
+    (budget, triangles): (&mut Budget, &mut usize),
+) -> ModelObject {
     let name = format!("object {}", number + 1);
     let unread = |kind: &str, why: &str| {
         ModelObject::Unread(Unread { line: None, name: name.clone(), kind: kind.to_owned(), why: why.to_owned() })
@@ -124,7 +131,7 @@ fn object(number: usize, record: &Record<'_>, versions: super::archive::Versions
         };
     };
     match object.class {
-        class::MESH => match mesh::read(object, versions) {
+        class::MESH => match mesh::read(object, versions, triangles) {
             Ok(mesh) => ModelObject::Mesh(mesh),
             Err(why) => unread("ON_Mesh", why),
         },

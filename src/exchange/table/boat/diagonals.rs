@@ -45,8 +45,7 @@ pub(super) fn without_definitions(rows: &[Vec<Field>]) -> (Cow<'_, [Vec<Field>]>
 
 /// The name of a diagonal and what follows it: `a` and the rest of `Diagonal A: ...`.
 fn split(text: &str) -> Option<(String, &str)> {
-    let lower = text.to_lowercase();
-    let start = lower.find("diag").filter(|_| lower.len() == text.len())?;
+    let start = text.to_ascii_lowercase().find("diag")?;
     let end = start + text[start..].find([':', '=', ',', '('])?;
     let name = words(&text[start..end]).into_iter().skip(1).collect::<Vec<_>>().join(" ");
     Some((name, &text[end + 1..]))

@@ -1,13 +1,14 @@
 //! The triangles over the surfaces and the faces of a CAD file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::super::super::cad::{CadSurfaces, Unread};
 use super::super::problem::{FilePosition, Problems};
-use super::super::settings::Settings;
+use super::super::settings::{PartChoice, Settings};
+use super::SEAM;
 use super::frame::{Given, framed};
 use crate::hull::{Brep, TriangleMesh};
-use crate::spline::BsplineSurface;
+use crate::spline::{BsplineSurface, dot, length, minus};
 use crate::units::counted;
 
 /// What triangles leave surfaces by at most, over the longest extent of these.
@@ -19,6 +20,18 @@ const FACE_DEVIATION: f64 = 3e-5;
 
 /// More triangles than this are made fewer by a deviation that is doubled.
 const ENOUGH: usize = 150_000;
+
+/// Control points nearer to each other than this part of the size are one.
+const ALIKE: f64 = 1e-6;
+
+/// Most surfaces at one place that are compared with another.
+const MOST_AT_PLACE: usize = 64;
+
+/// Most surfaces whose sides are compared.
+const MOST_COMPARED: usize = 300;
+
+/// Spaces between points of a side of a surface; every second point is looked for on other sides.
+const SPACES: usize = 32;
 
 /// The body of a CAD file in the ship's frame, and what it leaves the surfaces by at most \[m\]; none, with problems, when
 /// it cannot be read whole.
@@ -38,7 +51,7 @@ pub(super) fn meshes(
             None => return of_faces(&body, &mut unread, (kind, unit), settings, problems),
         }
     }
-    of_surfaces(&surfaces, (kind, unit), settings, problems)
+    of_surfaces(surfaces, (kind, unit), settings, problems)
 }
 
 /// Faces inside their loops, in two nested meshes.
@@ -82,11 +95,25 @@ fn of_faces(
 
 /// Whole surfaces, in two nested meshes.
 fn of_surfaces(
-    surfaces: &[BsplineSurface<4>],
+    surfaces: Vec<BsplineSurface<4>>,
     (kind, unit): (&str, f64),
     settings: &Settings,
     problems: &mut Problems,
 ) -> (Vec<TriangleMesh>, f64) {
+    let choice = settings.frame.parts.as_deref().unwrap_or_default();
+    if choice.iter().any(|part| matches!(part, PartChoice::Number(_))) {
+        let message = "parts: surfaces that nothing trims have no numbers".to_owned();
+        let remedy = "Name layers of a 3DM file, or leave out the numbers";
+        problems.error("E311", FilePosition::FILE, message, remedy);
+        return (Vec::new(), 0.0);
+    }
+    let (surfaces, doubles) = without_doubles(surfaces);
+    if doubles > 0 {
+        let message = format!("{} given twice: counted once", counted(doubles, "surface"));
+        problems.warning("W320", FilePosition::FILE, message, "");
+    }
+    let surfaces = &surfaces[..];
+    warn_of_sheets(surfaces, kind, problems);
     let points = surfaces.iter().map(|surface| surface.points().len()).sum::<usize>();
     problems.note(format!(
         "{} surfaces ({kind}) of {points} control points, untrimmed; the unit of the file is {unit} m",
@@ -123,10 +150,150 @@ fn in_frame(
 
 /// The longest extent of the control points.
 fn extent(surfaces: &[BsplineSurface<4>]) -> f64 {
-    let points = || surfaces.iter().flat_map(|surface| surface.points()).map(|[x, y, z, w]| [x / w, y / w, z / w]);
-    let along = |k: usize| {
-        let least = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-        points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) - least
+    let [low, high] = around(surfaces.iter().flat_map(BsplineSurface::points).map(|&point| place(point)));
+    (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max)
+}
+
+/// The place of a control point or of a point of a rational surface.
+fn place([x, y, z, w]: [f64; 4]) -> [f64; 3] {
+    [x / w, y / w, z / w]
+}
+
+/// The surfaces without those that are given twice, in whatever direction their parameters run, and how many are left out.
+fn without_doubles(surfaces: Vec<BsplineSurface<4>>) -> (Vec<BsplineSurface<4>>, usize) {
+    let slack = (ALIKE * extent(&surfaces)).max(f64::MIN_POSITIVE);
+    let before = surfaces.len();
+    let mut kept: Vec<BsplineSurface<4>> = Vec::with_capacity(before);
+    // Means of points that are alike are in the same cell or in neighbours.
+    let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
+    for surface in surfaces {
+        let count = surface.points().len() as f64;
+        let mean = |k: usize| surface.points().iter().map(|&point| place(point)[k]).sum::<f64>() / count;
+        let cell = [0, 1, 2].map(|k| (mean(k) / (4.0 * slack)).floor() as i64);
+        let is_known = (0..27_i64).map(|n| [n % 3, n / 3 % 3, n / 9]).any(|step| {
+            let near = [0, 1, 2].map(|k: usize| cell[k].saturating_add(step[k] - 1));
+            let mut others = cells.get(&near).into_iter().flatten().take(MOST_AT_PLACE);
+            others.any(|&other| are_same(&surface, &kept[other], slack))
+        });
+        if !is_known {
+            cells.entry(cell).or_default().push(kept.len());
+            kept.push(surface);
+        }
+    }
+    let doubles = before - kept.len();
+    (kept, doubles)
+}
+
+/// Whether two surfaces have the same net, in whatever direction their parameters run.
+fn are_same(a: &BsplineSurface<4>, b: &BsplineSurface<4>, slack: f64) -> bool {
+    let near = |p: [f64; 4], q: [f64; 4]| {
+        length(minus(place(p), place(q))) <= slack && (p[3] - q[3]).abs() <= ALIKE * q[3].abs()
     };
-    (0..3).map(along).fold(0.0, f64::max)
+    let alike = |a: &BsplineSurface<4>| {
+        let [rows, columns] = a.shape();
+        let degrees = |surface: &BsplineSurface<4>| [surface.u().degree(), surface.v().degree()];
+        a.shape() == b.shape()
+            && degrees(a) == degrees(b)
+            && [[false, false], [false, true], [true, false], [true, true]].into_iter().any(|[up, across]| {
+                let row = |i: usize| if up { rows - 1 - i } else { i };
+                let column = |j: usize| if across { columns - 1 - j } else { j };
+                (0..rows).all(|i| (0..columns).all(|j| near(a.point(row(i), column(j)), b.point(i, j))))
+            })
+    };
+    alike(a) || alike(&a.transposed())
+}
+
+/// Says of surfaces that share no side with the others that they count as skin.
+fn warn_of_sheets(surfaces: &[BsplineSurface<4>], kind: &str, problems: &mut Problems) {
+    let remedy = if kind == "3DM" {
+        "Put what is no skin on layers of its own, and name the others with --parts"
+    } else {
+        "Give the surfaces of the skin alone"
+    };
+    if surfaces.len() > MOST_COMPARED {
+        let message = format!("{} surfaces: whether a sheet inside the skin is among them is open", surfaces.len());
+        problems.warning("W351", FilePosition::FILE, message, remedy);
+        return;
+    }
+    let groups = groups(surfaces);
+    if groups > 1 {
+        let message = format!("{groups} groups of surfaces share no side with each other, and all count as skin");
+        problems.warning("W351", FilePosition::FILE, message, remedy);
+    }
+}
+
+/// The sides of a surface as points, and its bounds.
+struct Outline {
+    sides: [Vec<[f64; 3]>; 4],
+    bounds: [[f64; 3]; 2],
+}
+
+impl Outline {
+    fn new(surface: &BsplineSurface<4>) -> Self {
+        let [(u0, u1), (v0, v1)] = [surface.u().domain(), surface.v().domain()];
+        let side = |from: [f64; 2], to: [f64; 2]| -> Vec<[f64; 3]> {
+            let share = |k: usize| k as f64 / SPACES as f64;
+            let at = |t: f64| place(surface.eval(from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])));
+            (0..=SPACES).map(|k| at(share(k))).collect()
+        };
+        let sides =
+            [side([u0, v0], [u1, v0]), side([u0, v1], [u1, v1]), side([u0, v0], [u0, v1]), side([u1, v0], [u1, v1])];
+        Self { sides, bounds: around(surface.points().iter().map(|&point| place(point))) }
+    }
+
+    fn has_near(&self, point: [f64; 3], slack: f64) -> bool {
+        let [low, high] = self.bounds;
+        (0..3).all(|k| (low[k] - slack..=high[k] + slack).contains(&point[k]))
+            && self.sides.iter().any(|side| side.windows(2).any(|ends| off(point, [ends[0], ends[1]]) <= slack))
+    }
+
+    /// Whether a stretch of a side of this one lies on the sides of another one.
+    fn lies_on(&self, other: &Self, slack: f64) -> bool {
+        self.sides.iter().any(|side| {
+            let mut shared = side.iter().step_by(2).filter(|&&point| other.has_near(point, slack));
+            let Some(first) = shared.next() else { return false };
+            shared.any(|point| length(minus(*point, *first)) > 4.0 * slack)
+        })
+    }
+
+    /// Whether it is level at an end of the body, which it closes even where it is wider: a deck, a transom.
+    fn closes(&self, [low, high]: [[f64; 3]; 2], slack: f64) -> bool {
+        let [from, to] = self.bounds;
+        (0..3).any(|k| to[k] - from[k] <= slack && (from[k] - low[k] <= slack || high[k] - to[k] <= slack))
+    }
+}
+
+/// The distance of a point from a line between two others.
+fn off(point: [f64; 3], [a, b]: [[f64; 3]; 2]) -> f64 {
+    let (along, to) = (minus(b, a), minus(point, a));
+    let size = dot(along, along);
+    let share = if size > 0.0 { (dot(to, along) / size).clamp(0.0, 1.0) } else { 0.0 };
+    length(minus(to, along.map(|c| share * c)))
+}
+
+/// The bounds of points.
+fn around(points: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
+    points.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], point| {
+        let least = [0, 1, 2].map(|k: usize| low[k].min(point[k]));
+        let greatest = [0, 1, 2].map(|k: usize| high[k].max(point[k]));
+        [least, greatest]
+    })
+}
+
+/// How many groups surfaces form by the sides that they share; those alone that close an end of the body are none.
+fn groups(surfaces: &[BsplineSurface<4>]) -> usize {
+    let slack = SEAM * extent(surfaces);
+    let outlines: Vec<Outline> = surfaces.iter().map(Outline::new).collect();
+    let mut group: Vec<usize> = (0..outlines.len()).collect();
+    for (n, a) in outlines.iter().enumerate() {
+        for (m, b) in outlines[..n].iter().enumerate() {
+            if group[n] != group[m] && (a.lies_on(b, slack) || b.lies_on(a, slack)) {
+                let (from, to) = (group[n], group[m]);
+                group.iter_mut().filter(|own| **own == from).for_each(|own| *own = to);
+            }
+        }
+    }
+    let body = around(outlines.iter().flat_map(|outline| outline.bounds));
+    let counting = outlines.iter().zip(&group).filter(|(outline, _)| !outline.closes(body, slack));
+    counting.map(|(_, group)| group).collect::<BTreeSet<_>>().len()
 }

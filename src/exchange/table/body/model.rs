@@ -40,6 +40,7 @@ pub(super) fn shape(model: Model, settings: &Settings, problems: &mut Problems) 
         objects.iter().filter(|placed| placed.object.has_area() && unseen(placed)).collect();
     if !hidden.is_empty() {
         let mut on: Vec<&str> = hidden.iter().map(|placed| layers[placed.layer].name.as_str()).collect();
+        on.sort_unstable();
         on.dedup();
         let message =
             format!("left out: {} that the file hides (layers {})", counted(hidden.len(), "object"), some(&on));

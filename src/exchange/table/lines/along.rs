@@ -152,8 +152,12 @@ impl<'a> Along<'a> {
         let mut points: Vec<OutlinePoint> = breadths.filter(|p| p.z < top - slack).collect();
         points.extend(deck);
         let heights = self.contour.iter().flat_map(|line| crossings(line, x)).map(|[_, z]| z);
-        // A waterline that is there has the breadth of its height.
-        let free = heights.filter(|&z| z < top - slack && !points.iter().any(|p| (p.z - z).abs() <= slack));
+        // A waterline that is there has the breadth of its height. Waterlines are in the order of their heights.
+        let is_there = |z: f64| {
+            let next = points.partition_point(|p| p.z < z - slack);
+            points.get(next).is_some_and(|p| p.z <= z + slack)
+        };
+        let free = heights.filter(|&z| z < top - slack && !is_there(z));
         let middle: Vec<OutlinePoint> = free.map(|z| point(0.0, z)).collect();
         points.extend(middle);
         points.sort_by(|a, b| a.z.total_cmp(&b.z));
