@@ -60,14 +60,14 @@ impl Heights {
 }
 
 /// The surface of a hull, and the greatest control height of it that bears on what is below T: with more knots just above T
-/// where that would leave too little of the side; T where heights are no function of v.
-fn with_dry_side(hull: &Hull, draught: f64, depth: f64) -> (BsplineSurface<3>, f64) {
+/// where that would leave too little of the side, or where `finer` asks for them; T where heights are no function of v.
+fn with_dry_side(hull: &Hull, draught: f64, depth: f64, finer: bool) -> (BsplineSurface<3>, f64) {
     let surface = hull.surface();
     let Some(v) = hull.height_parameter(draught) else { return (surface.clone(), draught) };
     let height = |surface: &BsplineSurface<3>| surface.point(0, surface.v().find_span(v))[2];
     let is_low = |z: f64| z > draught && z < draught + (1.0 - LEAST_WAY) * (depth - draught);
     let found = height(surface);
-    if is_low(found) {
+    if is_low(found) && !finer {
         return (surface.clone(), found);
     }
     let degree = surface.v().degree();
@@ -101,14 +101,15 @@ pub fn scaled(parent: &Hull, dimensions: &Dimensions) -> Result<Hull, Refusal> {
     let across = new.breadth / old.breadth;
     let scale = draught / old_draught;
     let uniform = (new.depth - scale * old.depth).abs() <= 1e-12 * new.depth;
-    let (surface, from) = with_dry_side(parent, old_draught, old.depth);
-    let way = (old.depth - from).max(1e-9 * old.depth);
-    let mean = if uniform { scale } else { (new.depth - scale * from) / way };
-    let heights = Heights::new(scale, mean, from, old.depth).filter(|_| !new.draught_exceeds_depth());
-    let Some(heights) = heights else {
+    let map = |finer: bool| {
+        let (surface, from) = with_dry_side(parent, old_draught, old.depth, finer);
+        let way = (old.depth - from).max(1e-9 * old.depth);
+        let mean = if uniform { scale } else { (new.depth - scale * from) / way };
         let least = scale * (from + LEAST_SLOPE * way);
-        return Err(Refusal::depth(new.depth, least.max(draught), draught));
+        Heights::new(scale, mean, from, old.depth).map(|heights| (surface, heights)).ok_or(least)
     };
+    let mapped = if new.draught_exceeds_depth() { Err(draught) } else { map(false).or_else(|_| map(true)) };
+    let (surface, heights) = mapped.map_err(|least| Refusal::depth(new.depth, least.max(draught), draught))?;
     let points = surface.points().iter().map(|[x, y, z]| [along * x, across * y, heights.at(*z)]).collect();
     let deck = parent.deck().points().iter().map(|[x, z]| [along * x, heights.at(*z)]).collect();
     let deck = BsplineCurve::new(parent.deck().knots().clone(), deck).map_err(|error| Refusal::hull(&error))?;
