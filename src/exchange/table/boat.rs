@@ -272,10 +272,10 @@ pub(super) fn read(
         kept.reverse();
     }
     // `forward of transom` counts from the transom.
+    // `Distance forward of AP` and `Distance from AP, positive forward` both count from AP: the end counts, not the way.
     let counts_from = |row: &Row<'_>| {
-        let words = words(&row.name);
-        let behind = words.iter().position(|word| word == "from" || word == "of").map_or(0, |at| at + 1);
-        words[behind..].iter().find(|word| *word != "the").map_or(0, |word| end_of(word))
+        let ends = words(&row.name).into_iter().filter(|word| !matches!(word.as_str(), "forward" | "fwd" | "aft"));
+        ends.map(|word| end_of(&word)).find(|end| *end != 0).unwrap_or_else(|| end_of(&row.name))
     };
     let from = positions_row.map(counts_from);
     if turn(&mut table, settings, from, reader.problems) {
