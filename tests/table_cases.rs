@@ -252,7 +252,7 @@ fn headers_that_change_what_numbers_are_are_heard() {
         ("Distance forward of AP", true),
         ("Distance aft of stem", false),
         ("Distance from FP", false),
-        ("Distance from AP, positive forward", true),
+        ("Distance from AP positive forward", true),
         ("Distance from AP (+ fwd)", true),
     ] {
         assert_eq!(boat(distance), is_aft_first, "{distance}");

@@ -238,7 +238,7 @@ pub(super) const REMARKS: [Explanation; 40] = [
     },
     Explanation {
         code: "W421",
-        title: "Hull that moves on its way to the chart of a blend",
+        title: "Hull moved to the chart of a blend",
         cause: "A hull of `blend` is not within a ten thousandth of L_PP of its surface on the common chart. Knuckles or \
          profiles that lie elsewhere are rounded there.",
         example: "`W421 barge/hull.json: Barge moves by 31.2 mm at most on its way to the chart of Coaster`.",
