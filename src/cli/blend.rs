@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::run_files::{Figures, RunFiles};
-use super::stream;
+use super::run_files::{Figures, Made, RunFiles};
 use super::target_flags::{TARGETS, TargetFlags};
 use crate::derivation::Dimension;
 use crate::exchange::blend_json;
@@ -67,17 +66,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     destination.check(["hull.json", "blend.json", "manifest.json"])?;
     let usual = ["lines", "sections", "sectional-area", "hydrostatics", "diagram-sheet"];
     let outputs = blend_outputs(&job, &arguments.figures.chosen(&arguments.files, &usual))?;
-    if !arguments.files.quiet {
-        outputs.notes.iter().for_each(|note| stream::message(note));
-    }
-    outputs.warnings.iter().for_each(|warning| stream::message(warning));
-    destination.write_run(&blend_files(&job, &outputs, !arguments.files.no_figures)?)?;
-    if arguments.files.json {
-        return stream::data(&stream::json_judged(blend_json(&outputs.report()), &outputs.verdict())?)
-            .and(outputs.verdict());
-    }
-    if !arguments.files.quiet {
-        stream::page(&blend_page(&outputs))?;
-    }
-    outputs.verdict()
+    let made = Made { notes: &outputs.notes, warnings: &outputs.warnings, verdict: outputs.verdict() };
+    arguments.files.finish(
+        &destination,
+        made,
+        || blend_files(&job, &outputs, !arguments.files.no_figures),
+        || blend_json(&outputs.report()),
+        || blend_page(&outputs),
+    )
 }

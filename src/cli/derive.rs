@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::run_files::{Figures, RunFiles};
-use super::stream;
+use super::run_files::{Figures, Made, RunFiles};
 use super::target_flags::{DIMENSIONS, TARGETS, TargetFlags};
 use crate::config::DeriveFile;
 use crate::exchange::derive_json;
@@ -93,17 +92,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     destination.check(["hull.json", "derive.json", "manifest.json"])?;
     let usual = ["lines", "sections", "sectional-area", "hydrostatics", "diagram-sheet"];
     let outputs = derive_outputs(&job, &arguments.figures.chosen(&arguments.files, &usual))?;
-    if !arguments.files.quiet {
-        outputs.notes.iter().for_each(|note| stream::message(note));
-    }
-    outputs.warnings.iter().for_each(|warning| stream::message(warning));
-    destination.write_run(&derive_files(&job, &outputs, !arguments.files.no_figures)?)?;
-    if arguments.files.json {
-        return stream::data(&stream::json_judged(derive_json(&outputs.report()), &outputs.verdict())?)
-            .and(outputs.verdict());
-    }
-    if !arguments.files.quiet {
-        stream::page(&derive_page(&outputs))?;
-    }
-    outputs.verdict()
+    let made = Made { notes: &outputs.notes, warnings: &outputs.warnings, verdict: outputs.verdict() };
+    arguments.files.finish(
+        &destination,
+        made,
+        || derive_files(&job, &outputs, !arguments.files.no_figures),
+        || derive_json(&outputs.report()),
+        || derive_page(&outputs),
+    )
 }

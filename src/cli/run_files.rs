@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::stream;
 use crate::plot::Figure;
+use crate::report::{Destination, Failure, OutputFile};
 
 /// The options of a command that writes a folder of files.
 #[derive(Debug, Args)]
@@ -33,7 +35,36 @@ pub(super) fn stem(input: &Path) -> &OsStr {
     stem.to_str().and_then(|name| name.strip_prefix("catalogue:")).map_or(stem, OsStr::new)
 }
 
+/// What a command that makes one hull from others comes to.
+pub(super) struct Made<'a> {
+    pub(super) notes: &'a [String],
+    pub(super) warnings: &'a [String],
+    pub(super) verdict: Result<(), Failure>,
+}
+
 impl RunFiles {
+    /// Prints notes and warnings, writes the files, and prints the record as JSON or the page; ends with the verdict.
+    pub(super) fn finish(
+        &self,
+        destination: &Destination<'_>,
+        made: Made<'_>,
+        files: impl FnOnce() -> Result<Vec<OutputFile>, Failure>,
+        record: impl FnOnce() -> serde_json::Value,
+        page: impl FnOnce() -> String,
+    ) -> Result<(), Failure> {
+        if !self.quiet {
+            made.notes.iter().for_each(|note| stream::message(note));
+        }
+        made.warnings.iter().for_each(|warning| stream::message(warning));
+        destination.write_run(&files()?)?;
+        if self.json {
+            stream::data(&stream::json_judged(record(), &made.verdict)?)?;
+        } else if !self.quiet {
+            stream::page(&page())?;
+        }
+        made.verdict
+    }
+
     /// The folder for the files about one input; `several` when the command was given more than one.
     pub(super) fn folder(&self, input: &Path, several: bool) -> PathBuf {
         let name = stem(input);

@@ -192,7 +192,6 @@ impl<'a> Search<'a> {
         Problem { quadratic, linear, rows, lower, upper }
     }
 
-    /// Solves, and takes missed rows in until none is.
     /// Hessian and slope of J + w R over the square of the unit.
     fn objective(&self, n: usize) -> (SparseRows, Vec<f64>) {
         let Some((term, weight)) = self.waves else { return (self.form.clone(), vec![0.0; n]) };
@@ -233,6 +232,7 @@ impl<'a> Search<'a> {
         self.taken.resize(self.candidates.len(), false);
     }
 
+    /// Solves, and takes missed rows in until none is.
     pub(super) fn solve(
         &mut self,
         equations: &[Equation],

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::compare::CompareOutputs;
+use super::compare::{CompareOutputs, other_conventions};
 use super::derive::{is_about_as_fair, target_line};
 use super::derived_hull::{DerivedHull, input_file, refused, run_files, stated_targets};
 use super::failure::{Failure, problem};
@@ -10,9 +10,8 @@ use super::files::OutputFile;
 use super::generate::{Outputs, json_file};
 use super::source::{Overrides, Source, read_source_with};
 use crate::config::{DeriveFile, Diagnostic, Severity};
-use crate::derivation::{Blend, BlendRequest, BlendTarget, Dimension, Dimensions, Quantity, blend};
+use crate::derivation::{Blend, BlendRequest, BlendTarget, Dimension, Dimensions, blend};
 use crate::exchange::{BlendPart, BlendReport, DerivedTarget, blend_json};
-use crate::hydrostatics::Conventions;
 use crate::numeric::join;
 use crate::plot::Figure;
 
@@ -86,18 +85,15 @@ impl BlendOutputs {
     }
 }
 
-fn request(job: &BlendJob, between: f64, density: f64) -> BlendRequest {
+fn request(job: &BlendJob, density: f64) -> BlendRequest {
     let wanted = &job.wanted;
     let [length, breadth, draught, depth] = wanted.dimensions;
-    let between = length.unwrap_or(between);
-    let mut targets = stated_targets(wanted, between, density);
-    targets.retain(|(quantity, _)| !matches!(quantity, Quantity::Lcb | Quantity::Lcf));
     BlendRequest {
         dimensions: Dimensions { length, breadth, draught, depth },
         weights: job.weights.clone(),
         block_coefficient: wanted.coefficients[0],
         centres: wanted.centres,
-        targets,
+        targets: stated_targets(wanted, density),
         free: job.free.clone(),
     }
 }
@@ -132,8 +128,7 @@ pub fn blend_outputs(job: &BlendJob, figures: &[Figure]) -> Result<BlendOutputs,
     }
     let conventions = sources[0].conventions;
     let hulls: Vec<_> = sources.iter().map(|source| source.hull.clone()).collect();
-    let between = hulls[0].particulars().length_between_perpendiculars;
-    let made = blend(&hulls, &request(job, between, conventions.density), &conventions, job.intervals)
+    let made = blend(&hulls, &request(job, conventions.density), &conventions, job.intervals)
         .map_err(|refusals| refused(refusals, &job.wanted, None))?;
     let of = |k: usize| BlendPart {
         name: hulls[k].name().to_owned(),
@@ -145,7 +140,14 @@ pub fn blend_outputs(job: &BlendJob, figures: &[Figure]) -> Result<BlendOutputs,
     let parts: Vec<BlendPart> = (0..hulls.len()).map(of).collect();
     let targets: Vec<DerivedTarget> = made.targets.iter().map(target).collect();
     let mut warnings = warnings(job, &made, &parts);
-    warnings.extend(other_conventions(job, &sources));
+    let remedy = "Blend what states the same, or make the hull with the conventions of the first";
+    let first = (job.hulls[0].as_path(), &conventions);
+    let others = sources.iter().zip(&job.hulls).skip(1);
+    warnings.extend(
+        others.filter_map(|(source, path)| {
+            other_conventions([first, (path.as_path(), &source.conventions)], "all", remedy)
+        }),
+    );
     let heaviest =
         parts.iter().enumerate().fold(0, |best, (k, part)| if part.weight > parts[best].weight { k } else { best });
     let names: Vec<&str> = parts.iter().filter(|part| part.weight > 0.0).map(|part| part.name.as_str()).collect();
@@ -198,26 +200,6 @@ fn warnings(job: &BlendJob, made: &Blend, parts: &[BlendPart]) -> Vec<String> {
         found.push(warning("W420", &job.hulls[0], message, help));
     }
     found
-}
-
-/// That other hulls have other conventions, which are those of the first here.
-fn other_conventions(job: &BlendJob, sources: &[Source]) -> Vec<String> {
-    let first = &sources[0].conventions;
-    let differs = |other: &Conventions| {
-        let differs = [
-            ("density", first.density.to_bits() != other.density.to_bits()),
-            ("coefficient length", first.coefficient_length != other.coefficient_length),
-            ("section for CP", first.prismatic_section != other.prismatic_section),
-        ];
-        differs.into_iter().filter(|(_, differ)| *differ).map(|(name, _)| name).collect::<Vec<_>>().join(", its ")
-    };
-    let of = |(source, path): (&Source, &PathBuf)| {
-        let names = differs(&source.conventions);
-        let message = format!("its {names} differs from that of {}, which serves for all", job.hulls[0].display());
-        let help = "Blend what states the same, or make the hull with the conventions of the first";
-        (!names.is_empty()).then(|| warning("W520", path, message, help))
-    };
-    sources.iter().zip(&job.hulls).skip(1).filter_map(of).collect()
 }
 
 /// Every file of a blend: those of `generate`, `blend.json`, the comparison, `report.md` and the manifest.

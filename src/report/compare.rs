@@ -133,7 +133,9 @@ pub fn compare_outputs(job: &CompareJob) -> Result<CompareOutputs, Failure> {
     let [first, second] = [open(&job.hulls[0], job)?, open(&job.hulls[1], job)?];
     let conventions = first.body.conventions;
     let mut warnings: Vec<String> = first.body.warnings().chain(second.body.warnings()).collect();
-    warnings.extend(other_conventions(job, &conventions, &second.body.conventions));
+    let each = [(job.hulls[0].as_path(), &conventions), (job.hulls[1].as_path(), &second.body.conventions)];
+    let remedy = "Compare what both state, or make the second hull with the conventions of the first";
+    warnings.extend(other_conventions(each, "both", remedy));
     let notes = first.body.notes.iter().chain(&second.body.notes).filter(|note| !is_warning(note));
     let notes = notes.cloned().collect();
     let common = common_draughts(&first.body, &second.body)?;
@@ -176,25 +178,25 @@ pub(super) fn compared(
     CompareOutputs { hulls, roles, conventions, values, rows, distances, warnings: Vec::new(), notes: Vec::new() }
 }
 
-/// That the second hull has other conventions, which are those of the first here.
-fn other_conventions(job: &CompareJob, first: &Conventions, second: &Conventions) -> Option<String> {
+/// That a hull has other conventions than the first, whose serve for `both` or `all`; `remedy` is what helps.
+pub(super) fn other_conventions(
+    [first, other]: [(&Path, &Conventions); 2],
+    which: &str,
+    remedy: &str,
+) -> Option<String> {
+    let ((first_path, first), (path, other)) = (first, other);
     let differs = [
-        ("density", first.density.to_bits() != second.density.to_bits()),
-        ("coefficient length", first.coefficient_length != second.coefficient_length),
-        ("section for CP", first.prismatic_section != second.prismatic_section),
-        ("shell", first.shell != second.shell),
+        ("density", first.density.to_bits() != other.density.to_bits()),
+        ("coefficient length", first.coefficient_length != other.coefficient_length),
+        ("section for CP", first.prismatic_section != other.prismatic_section),
+        ("shell", first.shell != other.shell),
     ];
     let names: Vec<&str> = differs.into_iter().filter(|(_, differ)| *differ).map(|(name, _)| name).collect();
     let message = || {
-        format!(
-            "its {} differs from that of {}, which serves for both",
-            names.join(", and its "),
-            job.hulls[0].display()
-        )
+        let names = names.join(", and its ");
+        format!("its {names} differs from that of {}, which serves for {which}", first_path.display())
     };
-    let remedy = "Compare what both state, or make the second hull with the conventions of the first";
-    let warning =
-        || Diagnostic { severity: Severity::Warning, ..problem("W520", &job.hulls[1], message(), remedy) }.to_string();
+    let warning = || Diagnostic { severity: Severity::Warning, ..problem("W520", path, message(), remedy) }.to_string();
     (!names.is_empty()).then(warning)
 }
 

@@ -117,18 +117,17 @@ pub fn read_derive_job(
 }
 
 impl DeriveJob {
-    fn request(&self, parent: &Hull, conventions: &Conventions) -> Request {
+    fn request(&self, conventions: &Conventions) -> Request {
         let wanted = &self.wanted;
         let [length, breadth, draught, depth] = wanted.dimensions;
         let dimensions = Dimensions { length, breadth, draught, depth };
-        let between = length.unwrap_or(parent.particulars().length_between_perpendiculars);
         let free = Quantity::ALL.into_iter().filter(|quantity| wanted.free.contains(&quantity.word())).collect();
         Request {
             dimensions,
             block_coefficient: wanted.coefficients[0],
             lcb_percent: None,
-            centres: [None; 2],
-            targets: stated_targets(wanted, between, conventions.density),
+            centres: wanted.centres,
+            targets: stated_targets(wanted, conventions.density),
             free,
             method: self.method(),
             parallel_body: wanted.parallel_body,
@@ -189,7 +188,7 @@ pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutpu
         }
         None => hull,
     };
-    let derived = derive(&parent, &job.request(&parent, &conventions), &conventions, job.intervals)
+    let derived = derive(&parent, &job.request(&conventions), &conventions, job.intervals)
         .map_err(|refusals| refused(refusals, &job.wanted, job.file.as_deref()))?;
     let warnings = warnings(job, derived.inflections);
     let targets: Vec<DerivedTarget> = derived.targets.iter().map(target).collect();

@@ -66,18 +66,15 @@ pub(super) fn refused(refusals: Vec<Refusal>, wanted: &DeriveFile, job_file: Opt
     if infeasible { Failure::Infeasible(messages) } else { Failure::of_messages(messages) }
 }
 
-/// The targets that a job states, in the units of the derivation; L_PP is that of the hull that is made.
-pub(super) fn stated_targets(wanted: &DeriveFile, between: f64, density: f64) -> Vec<(Quantity, f64)> {
-    let at = |centre: Option<[f64; 2]>| centre.map(|[share, shift]| share * between + shift);
+/// The targets that a job states but for C_B, LCB and LCF, in the units of the derivation.
+pub(super) fn stated_targets(wanted: &DeriveFile, density: f64) -> Vec<(Quantity, f64)> {
     let volume = wanted.volume.or_else(|| wanted.mass.map(|mass| mass / density));
     let [_, prismatic, midship, waterplane] = wanted.coefficients;
     let targets = [
         (Quantity::Volume, volume),
-        (Quantity::Lcb, at(wanted.centres[0])),
         (Quantity::PrismaticCoefficient, prismatic),
         (Quantity::MidshipCoefficient, midship),
         (Quantity::WaterplaneCoefficient, waterplane),
-        (Quantity::Lcf, at(wanted.centres[1])),
         (Quantity::Kb, wanted.heights[0]),
         (Quantity::Km, wanted.heights[1]),
         (Quantity::WettedSurface, wanted.wetted_surface),

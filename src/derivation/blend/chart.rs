@@ -166,8 +166,12 @@ fn brought(hulls: &[Hull], base: usize, draught: f64, halvings: usize) -> Result
     let original = all[base].surface();
     let raised = original.elevate(in_u - original.u().degree(), in_v - original.v().degree());
     let mut surface = raised.map_err(|e| of_base(e.into()))?;
-    for (k, other) in all.iter().enumerate().filter(|(k, _)| *k != base) {
-        let bend = Bend::new(&all[base], other, draught).ok_or((k, Unlike::Outside([0.0, draught])))?;
+    let bend = |(k, hull)| match k == base {
+        true => Ok(None),
+        false => Bend::new(&all[base], hull, draught).map(Some).ok_or((k, Unlike::Outside([0.0, draught]))),
+    };
+    let bends = all.iter().enumerate().map(bend).collect::<Result<Vec<_>, _>>()?;
+    for (k, bend) in bends.iter().enumerate().filter_map(|(k, bend)| Some((k, bend.as_ref()?))) {
         let [u, v] = bend.breaks([in_u, in_v]);
         surface =
             surface.insert_knots(&missing(surface.u(), &u), &missing(surface.v(), &v)).map_err(|e| (k, e.into()))?;
@@ -183,11 +187,9 @@ fn brought(hulls: &[Hull], base: usize, draught: f64, halvings: usize) -> Result
     let decks = decks(&all, base).map_err(of_base)?;
     let mut found = OneChart { hulls: Vec::new(), base, errors: Vec::new() };
     for (k, hull) in all.iter().enumerate() {
-        let (net, error) = if k == base {
-            (surface.clone(), 0.0)
-        } else {
-            let bend = Bend::new(&all[base], hull, draught).ok_or((k, Unlike::Outside([0.0, draught])))?;
-            bend.refitted(&surface).map_err(|e| (k, e))?
+        let (net, error) = match &bends[k] {
+            None => (surface.clone(), 0.0),
+            Some(bend) => bend.refitted(&surface).map_err(|e| (k, e))?,
         };
         let on = Hull::new(hull.name(), *hull.particulars(), net, decks[k].clone()).map_err(|e| (k, e.into()))?;
         found.hulls.push(on);
