@@ -1,11 +1,15 @@
-//! README and book: their links lead somewhere, their sentences are short, and every page is in the summary.
+//! README and book: their links lead somewhere, their sentences are short, every page is in the summary, and commands,
+//! options, outputs and members of files are those of the program.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use loftsman::internals::config::{DERIVE_KEYS, JOB_KEYS, KEYS, Key, METHOD_KEYS, TABLE_KEYS};
 use loftsman::internals::hydrostatics::QUANTITIES;
 
-use crate::support::{carried, commands, files_of, program, read_text, stdout};
+use serde_json::Value;
+
+use crate::support::{Folder, carried, command, commands, files_of, folder, json, program, read_text, stderr, stdout};
 
 /// Most words of a sentence.
 const WORDS: usize = 40;
@@ -194,6 +198,277 @@ fn pages_of_lists_are_those_of_the_program() {
     }
 }
 
+/// Folders of the package that commands of the book read from.
+const FOLDERS: [&str; 4] = ["configs/", "tests/", "reports/", "examples/"];
+
+/// A line after a prompt, with the lines below it.
+struct Shown {
+    command: String,
+    output: Vec<String>,
+}
+
+/// The commands of the code blocks of a page. A backslash at the end of a line goes on in the next.
+fn shown(page: &str) -> Vec<Shown> {
+    let mut list: Vec<Shown> = Vec::new();
+    let (mut block, mut goes_on) = (false, false);
+    for line in page.lines() {
+        if line.starts_with("```") {
+            block = !block;
+            goes_on = false;
+            list.push(Shown { command: String::new(), output: Vec::new() });
+        } else if block && let Some(last) = list.last_mut() {
+            let begins = line.strip_prefix("$ ");
+            let text = begins.unwrap_or(line).trim_end_matches('\\');
+            if begins.is_some() {
+                list.push(Shown { command: text.to_owned(), output: Vec::new() });
+            } else if goes_on {
+                last.command.push_str(text);
+            } else {
+                last.output.push(line.to_owned());
+            }
+            goes_on = (begins.is_some() || goes_on) && line.ends_with('\\');
+        }
+    }
+    list.retain(|shown| !shown.command.is_empty());
+    list
+}
+
+/// The words of a command; what stands in quotes is one.
+fn words_of(command: &str) -> Vec<String> {
+    let parts = command.split('"').enumerate();
+    let words = parts.flat_map(|(k, part)| match k % 2 {
+        0 => part.split_whitespace().map(ToOwned::to_owned).collect::<Vec<String>>(),
+        _ => vec![part.to_owned()],
+    });
+    words.collect()
+}
+
+/// A line by its words; what is rounding of nothing is nothing.
+fn leveled(line: &str) -> String {
+    let word = |word: &str| match word.trim_end_matches([',', ';', '.']).parse::<f64>() {
+        Ok(value) if value.abs() < 1e-8 => "0".to_owned(),
+        _ => word.to_owned(),
+    };
+    line.split_whitespace().map(word).collect::<Vec<_>>().join(" ")
+}
+
+/// What differs between the outputs of a page and those of the program, which runs in `folder`.
+fn differences(name: &str, page: &str, folder: &Folder) -> Vec<String> {
+    for file in page.split("```").filter_map(|block| block.split_once(" file=").map(|(_, rest)| rest)) {
+        let (name, contents) = file.split_once('\n').unwrap();
+        folder.write(name, contents);
+    }
+    let (mut faults, mut code) = (Vec::new(), None);
+    for Shown { command: line, output } in shown(page) {
+        let words = words_of(&line);
+        let here = |word: &String| {
+            let is_carried = FOLDERS.iter().any(|part| word.starts_with(*part));
+            if is_carried { carried(word).display().to_string() } else { word.clone() }
+        };
+        let streams = match words[0].as_str() {
+            "loftsman" => {
+                let arguments: Vec<String> = words[1..].iter().map(here).collect();
+                let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+                let done = command(&arguments).current_dir(folder).output().unwrap();
+                code = done.status.code();
+                [stdout(&done), stderr(&done)]
+            }
+            "echo" => [code.unwrap().to_string(), String::new()],
+            "head" => [folder.read(&words[2]), String::new()],
+            other => panic!("{name}: {other} is no command of the book"),
+        };
+        let root = carried("").display().to_string();
+        let streams = streams.map(|text| text.replace(&root, "").lines().map(leveled).collect::<Vec<_>>());
+        let mut at = [0; 2];
+        for expected in output.iter().filter(|line| *line != "...") {
+            let expected = leveled(expected);
+            let found = (0..2).find_map(|k| Some((k, streams[k][at[k]..].iter().position(|l| *l == expected)?)));
+            match found {
+                Some((k, far)) => at[k] += far + 1,
+                None => faults.push(format!("{name}: $ {line}\n  does not print: {expected}")),
+            }
+        }
+    }
+    faults
+}
+
+#[test]
+#[ignore = "takes 30 s"]
+fn tutorials_show_what_the_program_prints() {
+    let mut pages = files_of(&carried("docs/src/tutorial"), "md");
+    pages.extend(["README.md", "docs/src/tour.md"].map(carried));
+    assert!(pages.len() > 6);
+    let mut faults = Vec::new();
+    for page in pages {
+        let name = page.file_stem().unwrap().display().to_string();
+        let text = read_text(&page);
+        assert!(shown(&text).len() > 2, "{name}");
+        faults.extend(differences(&name, &text, &folder(&name)));
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn commands_and_options_of_the_pages_are_those_of_the_program() {
+    let help: BTreeMap<String, String> =
+        commands().into_iter().map(|name| (name.clone(), stdout(&program(&["help", &name])))).collect();
+    let of = |text: &str, option: &str| text.split(|c: char| !c.is_alphanumeric() && c != '-').any(|w| w == option);
+    let developers = carried("docs/src/developers");
+    let (mut faults, mut count) = (Vec::new(), 0);
+    for page in documents().into_iter().filter(|page| !page.starts_with(&developers)) {
+        let (name, text) = (page.display(), read_text(&page));
+        for line in text.lines().map(|line| line.trim_start_matches("$ ")) {
+            let Some(rest) = line.strip_prefix("loftsman ") else { continue };
+            let words = words_of(rest.split(" && ").next().unwrap_or_default());
+            let Some(help) = words.first().and_then(|command| help.get(command)) else { continue };
+            count += 1;
+            let options = words.iter().filter(|word| word.starts_with("--"));
+            faults.extend(options.filter(|o| !of(help, o)).map(|o| format!("{name}: loftsman {}: {o}", words[0])));
+        }
+        for span in text.split('`').filter(|span| span.starts_with("--") && !span.starts_with("-- ")) {
+            let option = span.split([' ', '=']).next().unwrap_or_default();
+            if !help.values().any(|text| of(text, option)) {
+                faults.push(format!("{name}: {option}"));
+            }
+        }
+    }
+    assert!(count > 30, "{count}");
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Paths of all values of a document but objects; those of the members of a list are those of the list.
+fn paths(value: &Value, path: &str, found: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(members) if !members.is_empty() => {
+            for (key, member) in members {
+                let dot = if path.is_empty() { "" } else { "." };
+                paths(member, &format!("{path}{dot}{key}"), found);
+            }
+        }
+        Value::Array(list) if list.iter().any(Value::is_object) => {
+            list.iter().for_each(|member| paths(member, path, found));
+        }
+        _ => {
+            found.insert(path.to_owned());
+        }
+    }
+}
+
+/// Members that `files.md` documents, by the titles of its sections.
+fn documented() -> BTreeMap<String, Vec<String>> {
+    let (mut sections, mut title) = (BTreeMap::<String, Vec<String>>::new(), String::new());
+    for line in read_text(carried("docs/src/reference/files.md")).lines() {
+        if line.starts_with('#') {
+            line.trim_start_matches(['#', ' ']).clone_into(&mut title);
+        } else if let Some(cell) = line.strip_prefix("| ").and_then(|row| row.split(" | ").next()) {
+            let names = cell.split('`').skip(1).step_by(2).map(ToOwned::to_owned);
+            sections.entry(title.clone()).or_default().extend(names);
+        }
+    }
+    sections
+}
+
+/// Whether a path is that of a name, in which `*` stands for one member or more.
+fn is_of(path: &str, name: &str) -> bool {
+    let (mut path, mut name) = (path.split('.').peekable(), name.split('.').peekable());
+    while let Some(part) = name.next() {
+        match path.next() {
+            Some(_) if part == "*" && name.peek().is_none() => return true,
+            Some(member) if part == "*" || part == member => {}
+            _ => return false,
+        }
+    }
+    path.next().is_none()
+}
+
+#[test]
+fn members_of_files_are_on_their_page() {
+    let folder = folder("members");
+    let carried = |name: &str| carried(name).display().to_string();
+    let [wigley, tug] = ["configs/wigley.toml", "configs/tug.toml"].map(carried);
+    let [skiff, waterline] = ["tests/table_cases/skiff.csv", "examples/waterline.csv"].map(carried);
+    let table = carried("configs/methods/seed000-fishing-vessel.csv");
+    let run = |line: &str| {
+        let line = words_of(line);
+        let done = command(&line.iter().map(String::as_str).collect::<Vec<_>>()).current_dir(&folder).output().unwrap();
+        assert!(!stdout(&done).is_empty() || done.status.success(), "{line:?}: {}", stderr(&done));
+        stdout(&done)
+    };
+    run(&format!("generate {wigley} --no-figures -o g"));
+    run(&format!("fit {table} --no-figures -o fit"));
+    run(&format!("fair {skiff} --no-figures -o fair"));
+    run(&format!("fair-curve {waterline} --no-figures -o curve"));
+    run(&format!("derive {wigley} --wave-resistance 0.3 --wave-weight 100 --no-figures -o d"));
+    run(&format!("blend {wigley} d/hull.json --weights 0.5,0.5 --no-figures -o b"));
+    run(&format!("resistance {tug} --speeds 10 --no-figures -o r"));
+    let printed = ["check", "hydro", "inspect"].map(|name| {
+        let hull = if name == "check" { &skiff } else { &wigley };
+        (format!("{name} --json"), json(run(&format!("{name} {hull} --json"))))
+    });
+    let written = [
+        ("hull.json", "g/hull.json"),
+        ("hull.json", "fair/hull.json"),
+        ("summary.json", "g/summary.json"),
+        ("summary.json", "d/summary.json"),
+        ("fit.json", "fit/fit.json"),
+        ("fairing.json", "fair/fairing.json"),
+        ("summary.json of fair", "fair/summary.json"),
+        ("fairing.json of fair-curve", "curve/fairing.json"),
+        ("derive.json", "d/derive.json"),
+        ("blend.json", "b/blend.json"),
+        ("compare.json", "b/compare.json"),
+        ("resistance.json", "r/resistance.json"),
+        ("manifest.json", "b/manifest.json"),
+    ];
+    let written = written.map(|(title, file)| (title.to_owned(), json(folder.read(file))));
+    let documented = documented();
+    let mut faults = Vec::new();
+    for (title, document) in written.into_iter().chain(printed) {
+        let mut found = BTreeSet::new();
+        paths(&document, "", &mut found);
+        assert!(found.len() > 5, "{title}");
+        let missing = found.iter().filter(|path| {
+            let section = if path.starts_with("conventions.") { "conventions" } else { title.as_str() };
+            !documented[section].iter().any(|name| is_of(path, name))
+        });
+        faults.extend(missing.map(|path| format!("{title}: {path}")));
+    }
+    assert!(faults.is_empty(), "docs/src/reference/files.md lacks\n{}", faults.join("\n"));
+}
+
+/// The tutorial works Simpson's rule by hand; here it is worked again from its table.
+#[test]
+fn the_sums_of_the_tutorial_are_those_of_simpsons_rule() {
+    let page = read_text(carried("docs/src/tutorial/student.md"));
+    let (_, table) = page.split_once("file=ship.csv\n").unwrap();
+    let numbers = |line: &str| -> Vec<f64> { line.split(',').map(|number| number.parse().unwrap()).collect() };
+    let rows: Vec<Vec<f64>> = table.lines().skip(1).take(11).map(numbers).collect();
+    let rule = |values: &[f64]| -> f64 {
+        let factor = |k: usize| if k == 0 || k + 1 == values.len() { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 };
+        values.iter().enumerate().map(|(k, value)| factor(k) * value).sum()
+    };
+    let levers = |values: &[f64]| -> Vec<f64> { values.iter().enumerate().map(|(k, v)| k as f64 * v).collect() };
+    let (along, up) = (12.192, 1.6256);
+    let (mut areas, mut moments) = (Vec::new(), Vec::new());
+    for j in 1..6 {
+        let column: Vec<f64> = rows.iter().map(|row| row[j]).collect();
+        let [sum, lever] = [rule(&column), rule(&levers(&column))];
+        let [area, moment] = [2.0 / 3.0 * along * sum, 2.0 / 3.0 * along * along * lever];
+        let row = format!("{sum:.4} | {lever:.4} | {area:.2} | {moment:.1} |");
+        assert!(page.contains(&row), "{row}");
+        areas.push(area);
+        moments.push(moment);
+    }
+    let sum = rule(&areas);
+    for figure in [
+        format!("V   = 1.6256/3 x 14141.56 = {:.1} m3", up / 3.0 * sum),
+        format!("LCB = 835353.7 / 14141.56 = {:.3} m", rule(&moments) / sum),
+        format!("KB  = 1.6256 x 30595.4 / 14141.56 = {:.3} m", up * rule(&levers(&areas)) / sum),
+    ] {
+        assert!(page.contains(&figure), "{figure}");
+    }
+}
+
 #[test]
 fn the_readme_shows_what_fair_prints() {
     let table = carried("tests/data/series60_cb060/offsets.csv");
@@ -208,4 +483,9 @@ fn a_sentence_is_found() {
         sentences(text).into_iter().map(|s| s.trim().to_owned()).filter(|s| !s.is_empty()).collect();
     assert_eq!(found, ["One two.", "Three four.", "five.", "* item one", "a b", "c"]);
     assert_eq!(links("[a](b.md) and [c](d/e.md#f) [w](https://x)"), ["b.md", "d/e.md#f"]);
+    let list = shown("```text\n$ loftsman a --b \\\n    \"c d\"\nout\n...\n$ echo $?\n0\n```\n");
+    assert_eq!(words_of(&list[0].command), ["loftsman", "a", "--b", "c d"]);
+    assert_eq!((list[0].output.join("|"), list[1].output.join("|")), ("out|...".to_owned(), "0".to_owned()));
+    assert_eq!(leveled("a   -3e-16, 2.5"), "a 0 2.5");
+    assert!(is_of("a.b.c", "a.*.c") && is_of("a.b.c", "a.*") && !is_of("a.b", "a") && !is_of("a", "a.*"));
 }
