@@ -386,9 +386,10 @@ fn is_of(path: &str, name: &str) -> bool {
 #[test]
 fn members_of_files_are_on_their_page() {
     let folder = folder("members");
-    let carried = |name: &str| carried(name).display().to_string();
+    let carried = |name: &str| format!("\"{}\"", carried(name).display());
     let [wigley, tug] = ["configs/wigley.toml", "configs/tug.toml"].map(carried);
     let [skiff, waterline] = ["tests/table_cases/skiff.csv", "examples/waterline.csv"].map(carried);
+    let misprinted = carried("reports/suspects/series60-misprinted.csv");
     let table = carried("configs/methods/seed000-fishing-vessel.csv");
     let run = |line: &str| {
         let line = words_of(line);
@@ -404,7 +405,7 @@ fn members_of_files_are_on_their_page() {
     run(&format!("blend {wigley} d/hull.json --weights 0.5,0.5 --no-figures -o b"));
     run(&format!("resistance {tug} --speeds 10 --no-figures -o r"));
     let printed = ["check", "hydro", "inspect"].map(|name| {
-        let hull = if name == "check" { &skiff } else { &wigley };
+        let hull = if name == "check" { &misprinted } else { &wigley };
         (format!("{name} --json"), json(run(&format!("{name} {hull} --json"))))
     });
     let written = [
@@ -431,7 +432,8 @@ fn members_of_files_are_on_their_page() {
         assert!(found.len() > 5, "{title}");
         let missing = found.iter().filter(|path| {
             let section = if path.starts_with("conventions.") { "conventions" } else { title.as_str() };
-            !documented[section].iter().any(|name| is_of(path, name))
+            // What is null or empty in a file may be an object in another.
+            !documented[section].iter().any(|name| is_of(path, name) || name.starts_with(&format!("{path}.")))
         });
         faults.extend(missing.map(|path| format!("{title}: {path}")));
     }
