@@ -230,6 +230,8 @@ fn faces_of_cad_files_displace_what_is_inside_them() {
         ("ball270.igs", -0.5, 222.660_379_315),
         ("round-ends.step", 0.7, 544.610_639_133),
         ("sphere.igs", 0.0, 250.0 / 3.0 * std::f64::consts::PI),
+        // One rational spline that no face refers to.
+        ("ball-loose.igs", 0.0, 250.0 / 3.0 * std::f64::consts::PI),
         ("cone.step", 0.5, 184.989_941_823),
         ("thruster.step", 2.5, 272.052_729),
     ];
@@ -239,6 +241,40 @@ fn faces_of_cad_files_displace_what_is_inside_them() {
     }
     let notes = read_hydrostatic_body(&case("moonpool.step")).unwrap().notes;
     assert!(!notes.iter().any(|note| note.starts_with('W')), "{notes:?}");
+}
+
+/// A round pontoon, open at both ends of 48 sides, lying or upright: a lying one ends in a transom and a flat bow, an upright one
+/// has no bottom.
+#[test]
+fn tubes_without_caps_are_closed_at_their_ends_or_refused() {
+    let facets = |place: fn(f64, f64, f64) -> [f64; 3]| -> String {
+        let ring = |k: u32, x: f64| {
+            let (sine, cosine) = (std::f64::consts::TAU * f64::from(k % 48) / 48.0).sin_cos();
+            place(x, 2.0 * cosine, 2.0 + 2.0 * sine)
+        };
+        let vertex = |p: [f64; 3]| format!("vertex {} {} {}\n", p[0], p[1], p[2]);
+        let facet =
+            |t: [[f64; 3]; 3]| format!("facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n", t.map(vertex).concat());
+        let both = |k: u32| {
+            let [a, b, c, d] = [ring(k, 0.0), ring(k, 40.0), ring(k + 1, 40.0), ring(k + 1, 0.0)];
+            facet([a, b, c]) + &facet([a, c, d])
+        };
+        format!("solid\n{}endsolid\n", (0..48).map(both).collect::<String>())
+    };
+    let lying = facets(|x, y, z| [x, y, z]);
+    // 48 sectors of an inscribed polygon; 16 of them are above 3 m, less the triangle between their ends.
+    let sector = 0.5 * 4.0 * (std::f64::consts::TAU / 48.0).sin();
+    let expected = 40.0 * (32.0 * sector + 0.5 * 4.0 * (std::f64::consts::TAU / 3.0).sin());
+    let found = volume_of("lying.stl", &lying, 3.0).unwrap();
+    assert!((found - expected).abs() < 1e-4 * expected, "{found}, expected {expected}");
+    let path = folder("body-tubes").join("lying.stl");
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, &lying).unwrap();
+    let notes = stderr(&program(&["hydro", &path.display().to_string(), "--draughts", "3"]));
+    assert!(notes.contains("W351") && notes.contains("96 edges open, the lowest at z = 0.000 m"), "{notes}");
+    let upright = facets(|x, y, z| [y, z, x]);
+    let refused = volume_of("upright.stl", &upright, 3.0).unwrap_err().to_string();
+    assert!(refused.contains("E354") && refused.contains("a side or the bottom is missing"), "{refused}");
 }
 
 /// A quarter of a sphere, or the three others: without the curves among its parameters the file does not say which.

@@ -138,7 +138,7 @@ fn what_holds_no_hull_is_refused() {
 
 #[test]
 fn our_own_lines_come_back() {
-    for (name, allowed) in [("wigley", 1e-3_f64), ("box", 1e-6), ("bulk-carrier", 1e-3)] {
+    for (name, allowed) in [("wigley", 1e-3_f64), ("box", 1e-6), ("bulk-carrier", 1e-3), ("seed002-frigate", 1e-3)] {
         let hull = read_source(&carried("configs").join(format!("{name}.toml"))).unwrap().hull;
         let draught = hull.reference_height();
         let conventions = Conventions::default();
@@ -218,16 +218,37 @@ fn curves_beside_each_other_are_named() {
 #[test]
 fn solids_beside_curves_or_faces_are_refused() {
     let solid = "0\n3DSOLID\n8\nSOLIDS\n1\nxx\n0\nREGION\n8\nSOLIDS\n";
+    let wanted = "1 of 3DSOLID, 1 of REGION (layers SOLIDS): data of ACIS";
     let text = drawing(&(polylines(&sections(3.0)) + solid));
     let faults = said(&read_table("a.dxf", text.as_bytes()).unwrap_err());
-    assert!(faults.contains("E352") && faults.contains("1 of 3DSOLID, 1 of REGION: data of ACIS"), "{faults}");
+    assert!(faults.contains("E352") && faults.contains(wanted), "{faults}");
     let chosen = [("a.toml", "[table]\nunits = \"m\"\nparts = \"sect\"\n")];
     let read = read_table_with("a.dxf", text.as_bytes(), chosen).unwrap_or_else(|e| panic!("{}", said(&e)));
     assert_eq!(read.table.stations.len(), 11);
-    let face =
-        "0\n3DFACE\n8\nHULL\n10\n0\n20\n0\n30\n0\n11\n9\n21\n0\n31\n0\n12\n9\n22\n2\n32\n1\n13\n9\n23\n2\n33\n1\n";
-    let faults = said(&read_table("a.dxf", drawing(&format!("{face}{solid}")).as_bytes()).unwrap_err());
-    assert!(faults.contains("E350") && faults.contains("1 of 3DSOLID, 1 of REGION: data of ACIS beside"), "{faults}");
+    let faces: String = box_faces("HULL");
+    let both = drawing(&format!("{faces}{solid}"));
+    let faults = said(&read_table("a.dxf", both.as_bytes()).unwrap_err());
+    assert!(faults.contains("E352") && faults.contains(wanted), "{faults}");
+    let of = |part: &str| {
+        let beside = format!("[table]\nunits = \"m\"\nparts = \"{part}\"\n");
+        read_body("a.dxf", both.as_bytes(), [("a.toml", beside.as_str())]).unwrap()
+    };
+    let volume = of("hull").unwrap_or_else(|e| panic!("{}", said(&e))).meshes[0].report().volume;
+    assert!((volume - 720.0).abs() < 1e-9, "{volume}");
+    assert!(said(&of("solids").unwrap_err()).contains(wanted));
+}
+
+/// A box of 30 x 8 x 3 m as faces on a layer.
+fn box_faces(layer: &str) -> String {
+    let corner = |k: usize| [[0.0, 30.0][k & 1], [-4.0, 4.0][k >> 1 & 1], [0.0, 3.0][k >> 2]];
+    let face = |places: [usize; 4]| {
+        let point = |(n, k): (usize, &usize)| {
+            let [x, y, z] = corner(*k);
+            format!("1{n}\n{x}\n2{n}\n{y}\n3{n}\n{z}\n")
+        };
+        format!("0\n3DFACE\n8\n{layer}\n{}", places.iter().enumerate().map(point).collect::<String>())
+    };
+    [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].map(face).concat()
 }
 
 #[test]

@@ -20,6 +20,7 @@ mod compare;
 mod configs;
 mod derive;
 mod draught;
+mod dry_skin;
 mod dxf;
 mod errors;
 mod examples;

@@ -3,9 +3,11 @@
 use std::f64::consts::PI;
 use std::fs;
 
-use loftsman::internals::exchange::{CadUnit, ReadBody, TableProblem, read_body, write_3dm};
-use loftsman::internals::hull::Solid;
-use loftsman::internals::hydrostatics::Conventions;
+use loftsman::internals::exchange::{
+    CadUnit, ReadBody, TableProblem, read_body, read_table, read_table_with, write_3dm,
+};
+use loftsman::internals::hull::{FitMethod, Hull, Solid};
+use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::internals::report::{read_hydrostatic_body, read_source};
 
 use crate::random::Random;
@@ -46,6 +48,14 @@ fn bodies_of_all_versions_displace_what_they_should() {
         ("ball-nurbs-v2", 0.0, ball),
         ("extruded-v7", 20.0, 180.0 * PI),
         ("box-ft-v2", 2.0 * foot, 1200.0 * foot.powi(3)),
+        // A block at two places, one of them mirrored; another instance is on a hidden layer.
+        ("blocks-v5", 1.5, 60.0),
+        ("blocks-v8", 1.5, 60.0),
+        // Scaled by 2, of half the radius.
+        ("block-ball-v8", 0.0, ball),
+        // A block in a block, stretched across in the one and along in the other.
+        ("block-nested-v8", 0.5, 120.0),
+        ("hidden-v8", 1.5, 60.0),
     ];
     for (name, draught, volume) in cases {
         let body = read_hydrostatic_body(&carried("tests/rhino").join(format!("{name}.3dm"))).unwrap();
@@ -76,7 +86,7 @@ fn layers_are_parts_and_hidden_ones_are_left_out() {
     let body = read("layers-v8", "").unwrap();
     assert!((volume(&body) - 4800.0).abs() < 1e-6, "{}", volume(&body));
     let notes = said(&body.notes);
-    assert!(notes.contains("W352 left out: 1 object that the file hides (layers yard::dock)"), "{notes}");
+    assert!(notes.contains("W352 left out: 1 object on layers that the file hides (yard::dock)"), "{notes}");
     assert!(notes.contains("not part of the body: 1 curve"), "{notes}");
     let named = |names: &str| read("layers-v8", &format!("[table]\nparts = {names}\n"));
     for (names, volume_of_it) in [("\"hull\"", 2400.0), ("\"TANK\"", 2400.0), ("\"yard::dock\"", 7200.0)] {
@@ -85,6 +95,37 @@ fn layers_are_parts_and_hidden_ones_are_left_out() {
     }
     let wrong = said(&named("\"keel\"").unwrap_err());
     assert!(wrong.contains("E311 parts: no part 'keel' Known are hull, tank, yard::dock"), "{wrong}");
+}
+
+/// An object that is hidden by itself stays so; one of a block is where its own layer and those of the block are shown.
+#[test]
+fn what_is_hidden_is_named_with_what_helps() {
+    let found = said(&read("hidden-v8", "").unwrap().notes);
+    let alone = "W352 left out: 1 object that the file hides one by one (layers hull) Show them in the file";
+    assert!(found.contains(alone), "{found}");
+    let chosen = read("hidden-v8", "[table]\nparts = \"hull\"\n").unwrap();
+    assert!((volume(&chosen) - 80.0).abs() < 1e-9 && said(&chosen.notes).contains("one by one"));
+    let found = said(&read("blocks-v8", "").unwrap().notes);
+    assert!(found.contains("W352 left out: 1 object on layers that the file hides (spare)"), "{found}");
+    let spare = read("blocks-v8", "[table]\nparts = \"spare\"\n").unwrap();
+    assert!((volume(&spare) - 40.0).abs() < 1e-9, "{}", volume(&spare));
+}
+
+/// A Wigley hull of 100 x 10 x 6.25 m, B L T 4/9 below its draught, in millimetres: stations as splines, or as curves of curves.
+#[test]
+fn curves_alone_are_a_table() {
+    for (name, allowed) in [("curves-nurbs-v8", 1e-4), ("curves-polycurve-v6", 1e-3)] {
+        let read = read_table("lines.3dm", &bytes(name)).unwrap_or_else(|p| panic!("{name}: {}", said(&p)));
+        let hull = Hull::fit(&read.table, &FitMethod::default()).unwrap().hull;
+        let found = CurvesOfForm::new(&hull, &[6.25], &Conventions::default()).rows[0].displacement_volume;
+        let expected = 100.0 * 10.0 * 6.25 * 4.0 / 9.0;
+        assert!((found / expected - 1.0).abs() < allowed, "{name}: {found}, expected {expected}");
+        let notes = said(&read.notes);
+        assert!(notes.contains("W352 left out: 1 curve on layers that the file hides"), "{notes}");
+        let beside = [("lines.toml", "[table]\nparts = \"keel\"\n")];
+        let wrong = said(&read_table_with("lines.3dm", &bytes(name), beside).unwrap_err());
+        assert!(wrong.contains("E328"), "{wrong}");
+    }
 }
 
 /// A layer that is its own parent has one name, and objects stay on it.
@@ -130,7 +171,7 @@ fn what_is_not_read_is_refused_by_its_kind() {
     let refused = |name: &str, beside: &str| said(&read(name, beside).unwrap_err());
     let cases = [
         ("subd-v8", "E352 1 of 1 object cannot be read (1 ON_SubD), and without them the body is not whole"),
-        ("block-v8", "E352 1 of 1 object cannot be read (1 ON_InstanceRef)"),
+        ("block-ball-stretched-v8", "E352 1 of 1 object cannot be read (1 object of a block)"),
         ("both-v5", "E352 1 object of a mesh beside 1 object of surfaces"),
         ("no-unit-v4", "E351 the file states no unit of length"),
     ];

@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 use loftsman::internals::exchange::{read_body, read_subdivision, write_ftm};
 
-const NAMES: [&str; 20] = [
+const NAMES: &[&str] = &[
     "a.stl", "a.obj", "a.igs", "a.step", "a.fbm", "a.ftm", "a.glb", "a.gdf", "a.pnl", "a.mar", "a.ply", "a.off", "a.vtk",
     "a.vtu", "a.vtp", "a.msh", "a.3mf", "a.hst", "a.gltf", "a.dxf", "a.3dm",
 ];

@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 use loftsman::internals::exchange::{read_table, write_britfair, write_freeship, write_ghs, write_pdstrip, write_pias};
 
-const NAMES: [&str; 9] = ["a.csv", "a.gf", "a.bri", "a.txt", "a.xlsx", "in.mlt", "a.seaway", "a.igs", "a.dxf"];
+const NAMES: &[&str] = &["a.csv", "a.gf", "a.bri", "a.txt", "a.xlsx", "in.mlt", "a.seaway", "a.igs", "a.dxf", "a.3dm"];
 
 fuzz_target!(|data: &[u8]| {
     let Some((first, bytes)) = data.split_first() else { return };

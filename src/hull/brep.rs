@@ -22,7 +22,7 @@ use self::outline::Outline;
 use self::surface::Chart;
 use super::TriangleMesh;
 use super::triangles::Bends;
-use crate::spline::{BsplineSurface, length};
+use crate::spline::{BsplineSurface, dot, length};
 use std::collections::{BTreeSet, HashMap};
 
 /// Loops may be off their surface by this part of the size of the body.
@@ -39,7 +39,7 @@ fn apart(point: [f64; 3], factor: f64, vector: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| point[k] + factor * vector[k])
 }
 
-/// A rotation, or a reflection, and a translation: three rows of four numbers.
+/// A rotation, or a reflection, and a translation, or another affine map: three rows of four numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion(pub [[f64; 4]; 3]);
 
@@ -53,6 +53,17 @@ impl Motion {
         let columns = [0, 1, 2].map(|k| self.along([0, 1, 2].map(|row: usize| first.0[row][k])));
         let moved = self.point([0, 1, 2].map(|row: usize| first.0[row][3]));
         Self([0, 1, 2].map(|row: usize| [columns[0][row], columns[1][row], columns[2][row], moved[row]]))
+    }
+
+    /// Whether it keeps angles: a rotation, or a reflection, with one scale in all directions.
+    #[must_use]
+    pub fn is_similar(&self) -> bool {
+        let columns = [0, 1, 2].map(|k: usize| self.0.map(|row| row[k]));
+        let [a, b, c] = columns;
+        let squared = columns.map(|column| dot(column, column));
+        let slack = 1e-9 * squared.iter().sum::<f64>();
+        squared.iter().all(|size| (size - squared[0]).abs() <= slack)
+            && [dot(a, b), dot(b, c), dot(c, a)].iter().all(|product| product.abs() <= slack)
     }
 
     /// Its numbers bit for bit, to compare motions by.

@@ -5,9 +5,11 @@
 //! one line or none, and lines end on edges that two triangles share. Sections of closed meshes are therefore closed
 //! loops at every X, without tolerances.
 
+mod flood;
 mod shells;
 mod surfaces;
 
+pub use flood::DrySkin;
 pub use shells::InnerShells;
 pub(super) use surfaces::{Bends, corners};
 

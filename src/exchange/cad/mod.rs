@@ -14,7 +14,7 @@ pub use rhino::write_3dm;
 pub(super) use rhino::{Model, ModelObject, PlacedObject, is_3dm, read_3dm, united};
 pub use step::write_step;
 pub(super) use step::{is_step, read_step};
-pub(super) use surfaces::{CadCurve, CadSurfaces, Unread};
+pub(super) use surfaces::{CadCurve, CadSurfaces, Unread, is_closed, sampled, whole};
 
 /// Unit of length of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -1,8 +1,8 @@
 //! The surfaces of a CAD file, without what trims them.
 
 use super::super::fault::Faults;
-use crate::hull::Brep;
-use crate::spline::{BsplineCurve, BsplineSurface};
+use crate::hull::{Brep, BrepEdge, BrepFace, FaceSurface, SpaceCurve};
+use crate::spline::{BsplineCurve, BsplineSurface, length, minus};
 
 /// Most control points of a file.
 pub(super) const MOST_POINTS: usize = 2_000_000;
@@ -73,6 +73,12 @@ pub(super) fn surface(
     made.map_err(|error| faults.add(line, name, error.to_string())).ok()
 }
 
+/// What chords leave a curve by at most, over its size.
+pub(super) const CHORD: f64 = 1e-5;
+
+/// Chords of a span of a spline, from and to.
+const CHORDS: [usize; 2] = [4, 256];
+
 /// Parts of a span of the knots of a curve.
 const PARTS: usize = 8;
 
@@ -108,6 +114,45 @@ pub(super) fn points_of(line: usize, curve: &BsplineCurve<4>, [from, to]: [f64; 
     CadCurve { line, points: points.collect(), ..CadCurve::default() }
 }
 
+/// Points of a spline: chords of a span are doubled until they leave it by little.
+pub(in super::super) fn sampled(curve: &BsplineCurve<4>) -> Vec<[f64; 3]> {
+    let net = || curve.points().iter().map(|[x, y, z, w]| [x / w, y / w, z / w]);
+    let extent = |k: usize| {
+        let ends = net().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p[k]), b.max(p[k])]);
+        ends[1] - ends[0]
+    };
+    let slack = CHORD * (0..3).map(extent).fold(0.0, f64::max);
+    let at = |t: f64| {
+        let [x, y, z, w] = curve.eval(t);
+        [x / w, y / w, z / w]
+    };
+    let breaks = curve.knots().breakpoints();
+    let most = (MOST_POINTS / 8 / breaks.len()).clamp(CHORDS[0], CHORDS[1]);
+    let mut points = vec![at(breaks[0])];
+    for span in breaks.windows(2) {
+        let place = |k: usize, count: usize| at(span[0] + (span[1] - span[0]) * k as f64 / count as f64);
+        let mut count = CHORDS[0];
+        let mut chords: Vec<[f64; 3]> = (0..=count).map(|k| place(k, count)).collect();
+        while 2 * count <= most {
+            let finer: Vec<[f64; 3]> = (0..=2 * count)
+                .map(|k| if k.is_multiple_of(2) { chords[k / 2] } else { place(k, 2 * count) })
+                .collect();
+            let off = finer.windows(3).step_by(2).map(|w| {
+                let middle = [0, 1, 2].map(|k| 0.5 * (w[0][k] + w[2][k]));
+                length(minus(w[1], middle))
+            });
+            let off = off.fold(0.0, f64::max);
+            (chords, count) = (finer, 2 * count);
+            // The error of chords falls by four.
+            if off <= 4.0 * slack {
+                break;
+            }
+        }
+        points.extend(&chords[1..]);
+    }
+    points
+}
+
 /// Knots that differ by rounding of their text are one.
 fn snapped(mut knots: Vec<f64>) -> Vec<f64> {
     let slack = knots.first().zip(knots.last()).map_or(0.0, |(a, b)| 1e-10 * (b - a).abs());
@@ -117,4 +162,62 @@ fn snapped(mut knots: Vec<f64>) -> Vec<f64> {
         }
     }
     knots
+}
+
+/// Points nearer to each other than this part of the size of a surface are one.
+const CLOSED: f64 = 1e-6;
+
+/// Whether two opposite sides of a surface are one line, its seam. Without one it would be cut open there.
+pub(in super::super) fn is_closed(surface: &BsplineSurface<4>) -> bool {
+    let [us, vs]: [[f64; 2]; 2] = [surface.u(), surface.v()].map(|knots| knots.domain().into());
+    let shares = [0.0, 0.2, 0.5, 0.7, 1.0];
+    let on = |[a, b]: [f64; 2], share: f64| a + share * (b - a);
+    let at = |u: f64, v: f64| {
+        let [x, y, z, w] = surface.eval(u, v);
+        [x / w, y / w, z / w]
+    };
+    let side = |axis: usize, end: usize| {
+        shares.map(|share| if axis == 0 { at(us[end], on(vs, share)) } else { at(on(us, share), vs[end]) })
+    };
+    let size = length(minus(at(us[0], vs[0]), at(on(us, 0.5), on(vs, 0.5))));
+    let near = |a: &[f64; 3], b: &[f64; 3]| length(minus(*a, *b)) <= CLOSED * size;
+    [0, 1].into_iter().any(|axis| {
+        let [from, to] = [side(axis, 0), side(axis, 1)];
+        from.iter().zip(&to).all(|(a, b)| near(a, b))
+    })
+}
+
+/// Adds a surface inside its four sides to a body; none where it has none.
+pub(in super::super) fn whole(
+    surface: &FaceSurface,
+    [[a, b], [c, d]]: [[f64; 2]; 2],
+    kind: &str,
+    body: &mut Brep,
+) -> Option<()> {
+    let sides = [(1, c, [a, b]), (0, b, [c, d]), (1, d, [b, a]), (0, a, [d, c])];
+    let mut ring = Vec::new();
+    for (axis, value, ends) in sides {
+        let (curve, range) = match surface {
+            FaceSurface::Plane { .. } => {
+                let [from, to] = ends.map(|t| surface.at(if axis == 1 { [t, value] } else { [value, t] })[0]);
+                (SpaceCurve::between(from, to), [0.0, 1.0])
+            }
+            _ => surface.side(axis, value, ends)?,
+        };
+        let first = body.vertices.len();
+        body.vertices.extend(range.map(|t| curve.point(t)));
+        ring.push((body.edges.len(), true));
+        body.edges.push(BrepEdge { ends: [first, first + 1], curve, range });
+    }
+    let part = body.faces.len();
+    let name = format!("surface {}", part + 1);
+    body.faces.push(BrepFace {
+        name,
+        kind: kind.to_owned(),
+        surface: surface.clone(),
+        loops: vec![ring],
+        left: Some(true),
+        part,
+    });
+    Some(())
 }

@@ -11,6 +11,7 @@ pub(super) mod frame;
 mod model;
 pub(super) mod parts;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
 use super::super::cad::{
@@ -186,7 +187,12 @@ pub fn read_body<'a>(
         Shape::Nothing
     });
     // Curves alone are a table.
-    if matches!(&shape, Shape::Drawn(drawing) if drawing.parts.is_empty()) {
+    let is_drawn = match &shape {
+        Shape::Drawn(drawing) => drawing.parts.is_empty(),
+        Shape::Model(model) => model.is_drawn(),
+        _ => false,
+    };
+    if is_drawn {
         return None;
     }
     if let Shape::Surfaces(CadSurfaces { surfaces, body, unread, .. }) = &shape
@@ -270,9 +276,42 @@ pub fn read_body<'a>(
 }
 
 /// The faces of a drawing by layers, with what of it is not read, and a warning where it states no unit.
-fn of_drawing(Drawing { parts, unit, notes, .. }: Drawing, settings: &Settings, problems: &mut Problems) -> Shape {
+fn of_drawing(drawing: Drawing, settings: &Settings, problems: &mut Problems) -> Shape {
+    let Drawing { parts, unit, notes, surfaces, .. } = drawing;
+    let choice = settings.frame.parts.as_deref();
+    if has_acis(&surfaces, |layer| parts::is_chosen(layer, choice), problems) {
+        return Shape::Nothing;
+    }
     notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
     Shape::Named(parts, Given::plain(drawing_unit(unit, settings, problems)))
+}
+
+/// Whether layers that count hold data of ACIS, by layer, kind and number; a problem where they do.
+pub(super) fn has_acis(
+    surfaces: &[(String, String, usize)],
+    counts: impl Fn(&str) -> bool,
+    problems: &mut Problems,
+) -> bool {
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut layers: BTreeSet<&str> = BTreeSet::new();
+    for (layer, kind, count) in surfaces.iter().filter(|(layer, ..)| counts(layer)) {
+        *kinds.entry(kind).or_default() += count;
+        layers.insert(layer);
+    }
+    if kinds.is_empty() {
+        return false;
+    }
+    let kinds: Vec<String> = kinds.into_iter().map(|(kind, count)| format!("{count} of {kind}")).collect();
+    let layers: Vec<&str> = layers.into_iter().collect();
+    let message = format!(
+        "{} (layers {}): data of ACIS, which are not read; the hull may be theirs",
+        kinds.join(", "),
+        parts::some(&layers)
+    );
+    let remedy =
+        "Export STEP, IGES or a mesh, or name the layers of the hull with --parts (parts in the TOML beside it)";
+    problems.error("E352", FilePosition::FILE, message, remedy);
+    true
 }
 
 /// Metres in the unit of a drawing; metres, with a warning, where neither the file nor the settings state it.

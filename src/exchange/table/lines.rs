@@ -1,4 +1,4 @@
-//! The curves of a file without surfaces (IGES, entities 126 and 110; DXF) as a table: those at one x are sections;
+//! The curves of a file without surfaces (IGES, entities 126 and 110; DXF; 3DM) as a table: those at one x are sections;
 //! where there are few, those at one height are waterlines, of which sections are made.
 //!
 //! Units, axes and origin are found as those of bodies are, and `parts` chooses layers. Sections at [`LEAST_SECTIONS`] x
@@ -12,10 +12,13 @@ mod along;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::super::cad::{CadCurve, CadSurfaces, Drawing, is_dxf, is_iges, read_dxf, read_iges};
-use super::body::drawing_unit;
+use super::super::cad::{
+    CadCurve, CadSurfaces, Drawing, Model, ModelObject, PlacedObject, is_3dm, is_dxf, is_iges, read_3dm, read_dxf,
+    read_iges, sampled,
+};
 use super::body::frame::{Given, Placement, off_base, size};
-use super::body::parts::chosen_names;
+use super::body::parts::{chosen_names, is_by_name};
+use super::body::{drawing_unit, has_acis};
 use super::problem::{FilePosition, Problems};
 use super::sections::{Body, Section, XOrigin, table};
 use super::settings::Settings;
@@ -44,6 +47,8 @@ struct Source {
     notes: Vec<String>,
     /// Surfaces that are not read: layer, kind and how many.
     surfaces: Vec<(String, String, usize)>,
+    /// Layers that the file does not show.
+    hidden: Vec<String>,
 }
 
 /// The curves of a file that has nothing else; none when it is no such file.
@@ -51,7 +56,11 @@ fn source(name: &str, bytes: &[u8]) -> Option<Source> {
     let has_ending = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("dxf"));
     if is_dxf(bytes) || has_ending {
         let Drawing { curves, unit, notes, parts, surfaces } = read_dxf(bytes).ok()?;
-        return parts.is_empty().then_some(Source { kind: "DXF", curves, unit, notes, surfaces });
+        let hidden = Vec::new();
+        return parts.is_empty().then_some(Source { kind: "DXF", curves, unit, notes, surfaces, hidden });
+    }
+    if is_3dm(bytes) {
+        return read_3dm(bytes).ok().filter(Model::is_drawn).map(of_model);
     }
     if !is_iges(bytes) {
         return None;
@@ -59,7 +68,33 @@ fn source(name: &str, bytes: &[u8]) -> Option<Source> {
     let CadSurfaces { surfaces, unit, curves, notes, body, unread } = read_iges(bytes).ok()?;
     let others = !surfaces.is_empty() || !body.faces.is_empty() || !unread.is_empty();
     let unit = unit.or(Some(1.0));
-    (!others && !curves.is_empty()).then_some(Source { kind: "IGES", curves, unit, notes, surfaces: Vec::new() })
+    let (surfaces, hidden) = (Vec::new(), Vec::new());
+    (!others && !curves.is_empty()).then_some(Source { kind: "IGES", curves, unit, notes, surfaces, hidden })
+}
+
+/// The curves of a model by the layers of their own.
+fn of_model(Model { unit, layers, objects }: Model) -> Source {
+    let (mut curves, mut hidden, mut unread) = (Vec::new(), 0, 0);
+    for PlacedObject { object, layers: on, hidden: is_hidden } in objects {
+        let is_hidden = is_hidden || on[1..].iter().any(|&k| !layers[k].visible);
+        match object {
+            ModelObject::Curve(_) if is_hidden => hidden += 1,
+            ModelObject::Curve(Some(curve)) => {
+                let layer = layers[on[0]].name.clone();
+                curves.push(CadCurve { points: sampled(&curve), layer, ..CadCurve::default() });
+            }
+            ModelObject::Curve(None) => unread += 1,
+            _ => {}
+        }
+    }
+    let mut notes = Vec::new();
+    for (count, why) in [(hidden, "that the file hides one by one: not read"), (unread, "of kinds that are not read")] {
+        if count > 0 {
+            notes.push(format!("{} {why}", counted(count, "curve")));
+        }
+    }
+    let hidden = layers.into_iter().filter(|layer| !layer.visible).map(|layer| layer.name).collect();
+    Source { kind: "3DM", curves, unit, notes, surfaces: Vec::new(), hidden }
 }
 
 /// A curve in the ship's frame.
@@ -122,7 +157,7 @@ pub(super) fn read(name: &str, bytes: &[u8], sidecar: &[(&str, &str)]) -> Option
 
 /// The chosen curves in the ship's frame.
 fn lines(source: Source, settings: &Settings, problems: &mut Problems) -> Option<Vec<SpaceCurve>> {
-    let Source { kind, mut curves, unit, notes, surfaces } = source;
+    let Source { kind, mut curves, unit, notes, surfaces, hidden } = source;
     notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
     problems.note(format!("{} ({kind}) without surfaces", counted(curves.len(), "curve")));
     let unit = drawing_unit(unit, settings, problems);
@@ -137,15 +172,10 @@ fn lines(source: Source, settings: &Settings, problems: &mut Problems) -> Option
     let left: Vec<String> =
         layers.iter().zip(chosen).filter(|(_, chosen)| !chosen).map(|(layer, _)| (*layer).to_owned()).collect();
     curves.retain(|curve| left.binary_search(&curve.layer).is_err());
-    let mut unread: BTreeMap<&str, usize> = BTreeMap::new();
-    for (_, kind, count) in surfaces.iter().filter(|(layer, ..)| left.binary_search(layer).is_err()) {
-        *unread.entry(kind).or_default() += count;
+    if !is_by_name(settings.frame.parts.as_deref()) {
+        without_hidden(&mut curves, &hidden, problems);
     }
-    if !unread.is_empty() {
-        let kinds: Vec<String> = unread.into_iter().map(|(kind, count)| format!("{count} of {kind}")).collect();
-        let message = format!("{}: data of ACIS, which are not read; the hull may be theirs", kinds.join(", "));
-        let remedy = "Export STEP, IGES or a mesh, or name the layers of the curves with --parts";
-        problems.error("E352", FilePosition::FILE, message, remedy);
+    if has_acis(&surfaces, |layer| !left.iter().any(|name| name == layer), problems) {
         return None;
     }
     let bounds = bounds(&curves)?;
@@ -176,6 +206,18 @@ fn lines(source: Source, settings: &Settings, problems: &mut Problems) -> Option
     size(x[1] - x[0], &given, settings, problems);
     off_base(z, settings, problems);
     Some(lines)
+}
+
+/// Leaves out curves of layers that are not shown, and says so.
+fn without_hidden(curves: &mut Vec<CadCurve>, hidden: &[String], problems: &mut Problems) {
+    let before = curves.len();
+    curves.retain(|curve| !hidden.contains(&curve.layer));
+    if curves.len() < before {
+        let message = format!("left out: {} on layers that the file hides", counted(before - curves.len(), "curve"));
+        let remedy =
+            "Show these layers in the file, or name those that count with --parts (parts in the TOML beside it)";
+        problems.warning("W352", FilePosition::FILE, message, remedy);
+    }
 }
 
 fn bounds(curves: &[CadCurve]) -> Option<[[f64; 3]; 2]> {
@@ -209,12 +251,22 @@ struct Planes<'a> {
 }
 
 impl<'a> Planes<'a> {
+    /// What runs straight across the hull is part of a section where one is drawn at its x, and else of a waterline that ends at
+    /// a raked transom.
     fn of(lines: &'a [SpaceCurve], slack: f64) -> Self {
         let mut planes = Self::default();
+        let is_across = |line: &SpaceCurve| line.is_flat(0, slack) && !line.is_on_centreplane(slack);
+        let upright = lines.iter().filter(|line| is_across(line) && !line.is_flat(2, slack));
+        let mut drawn: Vec<f64> = upright.map(|line| line.points[0][0]).collect();
+        drawn.sort_by(f64::total_cmp);
+        let has_section = |x: f64| {
+            let next = drawn.partition_point(|own| *own < x - slack);
+            drawn.get(next).is_some_and(|own| *own <= x + slack)
+        };
         for line in lines {
             let list = if line.is_on_centreplane(slack) {
                 &mut planes.middle
-            } else if line.is_flat(0, slack) {
+            } else if line.is_flat(0, slack) && has_section(line.points[0][0]) {
                 &mut planes.across
             } else if line.is_flat(2, slack) {
                 &mut planes.level

@@ -168,7 +168,10 @@ impl FaceSurface {
     pub fn moved(&self, motion: &Motion) -> Self {
         match self {
             Self::Plane { origin, x, y } => {
-                Self::Plane { origin: motion.point(*origin), x: motion.along(*x), y: motion.along(*y) }
+                let (x, y) = (motion.along(*x), motion.along(*y));
+                let is_rigid = (length(x) - 1.0).abs().max((length(y) - 1.0).abs()).max(dot(x, y).abs()) < 1e-9;
+                let [x, y, _] = if is_rigid { [x, y, x] } else { frame(cross(x, y), Some(x)) };
+                Self::Plane { origin: motion.point(*origin), x, y }
             }
             Self::Revolved { origin, axis, profile } => {
                 // A reflection turns the angle about the axis over.

@@ -138,11 +138,12 @@ impl TriangleMesh {
         if sheets.is_empty() || sheets.len() == shells.len() {
             return (self, 0);
         }
-        // Places of the vertices of openings of the other shells.
+        // Places of the vertices of openings of the other shells, which close each other where a sheet is between them.
         let key = |vertex: usize| self.vertices[vertex].map(|c| (c / (ONE * size)).round() as i64);
         let is_sheet = |k: &usize| sheets.contains(k);
-        let others = (0..shells.len()).filter(|k| !is_sheet(k)).flat_map(|k| &open[k]).flatten();
-        let openings: HashSet<[i64; 3]> = others.map(|&vertex| key(vertex)).collect();
+        let others = (0..shells.len()).filter(|k| !is_sheet(k)).flat_map(|k| &shells[k]);
+        let openings = open_edges(others.map(|&t| self.triangles[t]));
+        let openings: HashSet<[i64; 3]> = openings.into_iter().flatten().map(key).collect();
         let mut left_out = vec![false; self.triangles.len()];
         for &k in &sheets {
             let closing =
@@ -201,7 +202,7 @@ impl TriangleMesh {
     }
 
     /// Triangles that hang together across edges of two.
-    fn shells(&self) -> Vec<Vec<usize>> {
+    pub(super) fn shells(&self) -> Vec<Vec<usize>> {
         let neighbours = self.neighbours();
         let beside = neighbours.iter().enumerate();
         let pairs = beside.flat_map(|(k, others)| others.iter().flatten().map(move |(other, _)| [k, *other]));

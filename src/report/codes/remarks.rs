@@ -197,7 +197,8 @@ pub(super) const REMARKS: [Explanation; 40] = [
         title: "Surfaces that are not read",
         cause: "A STEP, IGES or DXF file has entities beside its faces or curves that are not read, or a 3DM file hides objects.",
         example: "`1 CYLINDRICAL_SURFACE of no face are not read`.",
-        remedy: "Nothing, if these are no part of the hull. `--parts` names layers of a 3DM file that count, also hidden ones.",
+        remedy: "Nothing, if these are no part of the hull. `--parts` names layers of a 3DM file that count, also hidden ones. \
+         Objects that are hidden one by one are shown in the file alone.",
     },
     Explanation {
         code: "W353",

@@ -6,16 +6,10 @@
 use std::f64::consts::TAU;
 
 use super::super::super::fault::Faults;
-use super::super::surfaces::{MOST_POINTS, spline_curve};
+use super::super::surfaces::{CHORD, MOST_POINTS, sampled, spline_curve};
 use super::groups::Record;
 use crate::hull::Motion;
 use crate::spline::{BsplineCurve, Collocation, KnotVector, Parametrization, cross, length, minus};
-
-/// What chords leave a curve by at most, over its size.
-const CHORD: f64 = 1e-5;
-
-/// Chords of a span of a spline, from and to.
-const CHORDS: [usize; 2] = [4, 256];
 
 /// A component of a normal below this part of its length is small, by the rule of the format for axes.
 const ARBITRARY: f64 = 1.0 / 64.0;
@@ -162,45 +156,6 @@ fn fitted(points: &[[f64; 3]]) -> Option<BsplineCurve<4>> {
     });
     let net = (0..distinct.len()).map(|k| [columns[0][k], columns[1][k], columns[2][k], 1.0]).collect();
     BsplineCurve::new(knots, net).ok()
-}
-
-/// Points of a spline: chords of a span are doubled until they leave it by little.
-fn sampled(curve: &BsplineCurve<4>) -> Vec<[f64; 3]> {
-    let net = || curve.points().iter().map(|[x, y, z, w]| [x / w, y / w, z / w]);
-    let extent = |k: usize| {
-        let ends = net().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p[k]), b.max(p[k])]);
-        ends[1] - ends[0]
-    };
-    let slack = CHORD * (0..3).map(extent).fold(0.0, f64::max);
-    let at = |t: f64| {
-        let [x, y, z, w] = curve.eval(t);
-        [x / w, y / w, z / w]
-    };
-    let breaks = curve.knots().breakpoints();
-    let most = (MOST_POINTS / 8 / breaks.len()).clamp(CHORDS[0], CHORDS[1]);
-    let mut points = vec![at(breaks[0])];
-    for span in breaks.windows(2) {
-        let place = |k: usize, count: usize| at(span[0] + (span[1] - span[0]) * k as f64 / count as f64);
-        let mut count = CHORDS[0];
-        let mut chords: Vec<[f64; 3]> = (0..=count).map(|k| place(k, count)).collect();
-        while 2 * count <= most {
-            let finer: Vec<[f64; 3]> = (0..=2 * count)
-                .map(|k| if k.is_multiple_of(2) { chords[k / 2] } else { place(k, 2 * count) })
-                .collect();
-            let off = finer.windows(3).step_by(2).map(|w| {
-                let middle = [0, 1, 2].map(|k| 0.5 * (w[0][k] + w[2][k]));
-                length(minus(w[1], middle))
-            });
-            let off = off.fold(0.0, f64::max);
-            (chords, count) = (finer, 2 * count);
-            // The error of chords falls by four.
-            if off <= 4.0 * slack {
-                break;
-            }
-        }
-        points.extend(&chords[1..]);
-    }
-    points
 }
 
 #[cfg(test)]

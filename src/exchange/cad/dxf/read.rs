@@ -72,7 +72,7 @@ pub(in super::super::super) struct Drawing {
     pub(in super::super::super) parts: Vec<(String, TriangleMesh)>,
     /// Curves, of a file without faces.
     pub(in super::super::super) curves: Vec<CadCurve>,
-    /// Surfaces and solids that are not read, beside curves: layer, kind and how many.
+    /// Surfaces and solids that are not read, beside faces or curves: layer, kind and how many.
     pub(in super::super::super) surfaces: Vec<(String, String, usize)>,
     /// Metres in the unit of the file, where it is stated.
     pub(in super::super::super) unit: Option<f64>,
@@ -219,12 +219,6 @@ fn drawing(
         } else {
             format!("its surfaces are data of ACIS, which are not read ({acis}): export STEP, IGES or a mesh")
         };
-        faults.add(None, "", message);
-    } else if faults.list.is_empty() && !faces.is_empty() && !acis.is_empty() {
-        let message = format!(
-            "{acis}: data of ACIS beside faces, without which the body is not whole: turn off their layers, or export \
-             STEP, IGES or a mesh"
-        );
         faults.add(None, "", message);
     }
     let mut notes = Vec::new();

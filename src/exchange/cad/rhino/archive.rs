@@ -82,9 +82,13 @@ pub(super) enum Mode {
     Defined,
 }
 
+/// An identifier of an object or a definition.
+pub(super) type Id = [u8; 16];
+
 /// A record of the table of objects.
 #[derive(Debug, Clone)]
 pub(super) struct Record<'a> {
+    pub(super) id: Id,
     /// The kind by its number.
     pub(super) kind: u32,
     pub(super) object: Option<Object<'a>>,
@@ -101,6 +105,8 @@ pub(super) struct Tables<'a> {
     pub(super) unit: Option<f64>,
     pub(super) layers: Vec<Layer>,
     pub(super) records: Vec<Record<'a>>,
+    /// The objects of blocks by the identifiers of these.
+    pub(super) blocks: HashMap<Id, Vec<Id>>,
     /// Layers by their numbers in the file; of several with one number the first.
     numbered: HashMap<i32, usize>,
 }
@@ -128,6 +134,7 @@ pub(super) fn tables(bytes: &[u8]) -> Result<Tables<'_>, String> {
         unit: None,
         layers: Vec::new(),
         records: Vec::new(),
+        blocks: HashMap::new(),
         numbered: HashMap::new(),
     };
     let mut rest = Cursor::new(&bytes[MAGIC.len() + 8..], archive >= 50);
@@ -153,6 +160,7 @@ impl<'a> Tables<'a> {
             code::SETTINGS => Self::setting,
             code::LAYERS => Self::layer,
             code::OBJECTS => Self::record,
+            code::DEFINITIONS => Self::definition,
             _ => return Ok(()),
         };
         while !inside.is_at_end() {
@@ -243,12 +251,23 @@ impl<'a> Tables<'a> {
         }
     }
 
+    /// A block; one that cannot be read has no objects.
+    fn definition(&mut self, record: Chunk<'a>) -> Option<()> {
+        if record.code == code::DEFINITION {
+            let mut inside = record.inside;
+            let later = self.versions.archive >= 60;
+            let read = inside.object().and_then(|object| definition(object.data.inside, later));
+            self.blocks.extend(read);
+        }
+        Some(())
+    }
+
     fn record(&mut self, record: Chunk<'a>) -> Option<()> {
         if record.code != code::OBJECT {
             return Some(());
         }
         let mut inside = record.inside;
-        let mut found = Record { kind: 0, object: None, layer: None, mode: Mode::Shown };
+        let mut found = Record { id: [0; 16], kind: 0, object: None, layer: None, mode: Mode::Shown };
         while !inside.is_at_end() {
             let mut next = inside;
             let chunk = inside.chunk()?;
@@ -256,7 +275,8 @@ impl<'a> Tables<'a> {
                 code::OBJECT_KIND => found.kind = chunk.value as u32,
                 code::CLASS => found.object = next.object(),
                 code::OBJECT_ATTRIBUTES => {
-                    let (layer, mode) = attributes(chunk.inside, self.versions)?;
+                    let (id, layer, mode) = attributes(chunk.inside, self.versions)?;
+                    found.id = id;
                     found.layer = self.numbered.get(&layer).copied();
                     found.mode = mode;
                 }
@@ -268,11 +288,11 @@ impl<'a> Tables<'a> {
     }
 }
 
-/// The layer of an object by its index, and what it is for.
-fn attributes(mut inside: Cursor<'_>, versions: Versions) -> Option<(i32, Mode)> {
+/// The identifier of an object, its layer by its index, and what it is for.
+fn attributes(mut inside: Cursor<'_>, versions: Versions) -> Option<(Id, i32, Mode)> {
     let later = versions.archive >= 5 && versions.toolkit >= 200_712_190;
     let [_, minor] = inside.version()?;
-    inside.id()?;
+    let id = inside.id()?;
     let layer = inside.int()?;
     let (visible, mode) = if later { items(inside)? } else { fixed(inside, minor)? };
     let mode = match mode & 15 {
@@ -281,7 +301,39 @@ fn attributes(mut inside: Cursor<'_>, versions: Versions) -> Option<(i32, Mode)>
         _ if !visible => Mode::Hidden,
         _ => Mode::Shown,
     };
-    Some((layer, mode))
+    Some((id, layer, mode))
+}
+
+/// The identifier of a block and those of its objects; none of these where they stand in another file.
+fn definition(mut data: Cursor<'_>, later: bool) -> Option<(Id, Vec<Id>)> {
+    if !later {
+        data.version()?;
+        return Some((data.id()?, ids(&mut data)?));
+    }
+    let mut inside = data.anonymous()?;
+    // Chunks have their version in two numbers.
+    inside.take(8)?;
+    let mut attributes = inside.inside(code::COMPONENT)?;
+    attributes.take(8)?;
+    // Each with a byte before it that says whether it is there: a kind, the identifier.
+    if attributes.flag()? {
+        attributes.int()?;
+    }
+    let id = if attributes.flag()? { attributes.id()? } else { return None };
+    // How it is brought up to date, its unit, and texts.
+    inside.int()?;
+    inside.chunk()?;
+    for _ in 0..3 {
+        inside.text()?;
+    }
+    inside.take(48)?;
+    let objects = if inside.flag()? { ids(&mut inside)? } else { Vec::new() };
+    Some((id, objects))
+}
+
+fn ids(data: &mut Cursor<'_>) -> Option<Vec<Id>> {
+    let count = data.count(16)?;
+    (0..count).map(|_| data.id()).collect()
 }
 
 /// Whether an object is visible, and its mode, of attributes with a number before each; those left out are usual.

@@ -5,7 +5,7 @@ use super::chunks::{class, code};
 use super::cursor::{Cursor, Object};
 use super::curves::{Budget, Run};
 use super::surfaces::Patch;
-use crate::hull::{Brep, BrepEdge, BrepFace, FaceSurface, SpaceCurve};
+use crate::hull::{Brep, BrepEdge, BrepFace};
 use crate::spline::{length, minus};
 
 /// Ends of edges nearer to their vertices than this part of the size of the body are there.
@@ -233,36 +233,5 @@ pub(super) fn read(
         }
     }
     body.vertices.extend(&lists.vertices);
-    Some(())
-}
-
-/// Adds a surface inside its four sides to a body; none where it has none.
-pub(super) fn whole(Patch { surface, ends, .. }: &Patch, kind: &str, body: &mut Brep) -> Option<()> {
-    let [[a, b], [c, d]] = *ends;
-    let sides = [(1, c, [a, b]), (0, b, [c, d]), (1, d, [b, a]), (0, a, [d, c])];
-    let mut ring = Vec::new();
-    for (axis, value, ends) in sides {
-        let (curve, range) = match surface {
-            FaceSurface::Plane { .. } => {
-                let [from, to] = ends.map(|t| surface.at(if axis == 1 { [t, value] } else { [value, t] })[0]);
-                (SpaceCurve::between(from, to), [0.0, 1.0])
-            }
-            _ => surface.side(axis, value, ends)?,
-        };
-        let first = body.vertices.len();
-        body.vertices.extend(range.map(|t| curve.point(t)));
-        ring.push((body.edges.len(), true));
-        body.edges.push(BrepEdge { ends: [first, first + 1], curve, range });
-    }
-    let part = body.faces.len();
-    let name = format!("surface {}", part + 1);
-    body.faces.push(BrepFace {
-        name,
-        kind: kind.to_owned(),
-        surface: surface.clone(),
-        loops: vec![ring],
-        left: Some(true),
-        part,
-    });
     Some(())
 }

@@ -11,6 +11,7 @@ pub(super) mod code {
     pub(in super::super) const COMMENT: u32 = 0x0000_0001;
     pub(in super::super) const END_OF_FILE: u32 = 0x0000_7fff;
     pub(in super::super) const ANONYMOUS: u32 = 0x4000_8000;
+    pub(in super::super) const COMPONENT: u32 = 0x4000_8002;
     pub(in super::super) const END_OF_TABLE: u32 = 0xffff_ffff;
     pub(in super::super) const MATERIALS: u32 = 0x1000_0010;
     pub(in super::super) const LAYERS: u32 = 0x1000_0011;
@@ -30,6 +31,7 @@ pub(super) mod code {
     pub(in super::super) const TOOLKIT: u32 = 0xa000_0026;
     pub(in super::super) const UNITS: u32 = 0x2000_8031;
     pub(in super::super) const LAYER: u32 = 0x2000_8050;
+    pub(in super::super) const DEFINITION: u32 = 0x2000_8076;
     pub(in super::super) const OBJECT: u32 = 0x2000_8070;
     pub(in super::super) const OBJECT_KIND: u32 = 0x8200_0071;
     pub(in super::super) const OBJECT_ATTRIBUTES: u32 = 0x0200_8072;

@@ -1,10 +1,9 @@
 //! Extrusions of an archive: profiles in a plane, moved along a line, with caps.
 
-use super::brep::whole;
+use super::super::surfaces::whole;
 use super::chunks::class;
 use super::cursor::{Cursor, Object};
 use super::curves::{Budget, Run, interval};
-use super::surfaces::Patch;
 use crate::hull::{Brep, BrepEdge, BrepFace, FaceSurface, Motion};
 use crate::spline::{cross, length, minus};
 
@@ -77,7 +76,7 @@ pub(super) fn read(object: &Object<'_>, body: &mut Brep, budget: &mut Budget) ->
             body.edges.push(BrepEdge { ends: [first, first + 1], curve, range });
         }
         let surface = FaceSurface::Extruded { profile, along };
-        whole(&Patch { surface, ends: [range, [0.0, 1.0]], swapped: false }, KIND, body)?;
+        whole(&surface, [range, [0.0, 1.0]], KIND, body)?;
     }
     for ((loops, share), has) in rings.into_iter().zip([0.0, 1.0]).zip(caps) {
         if !has {

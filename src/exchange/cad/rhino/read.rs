@@ -1,16 +1,17 @@
 //! The objects of an archive with their layers.
 
-use super::archive::{MAGIC, Mode, Record, Tables, tables};
-use super::brep::{Lost, kind_of, read as read_brep, whole};
+use super::archive::{MAGIC, Mode, Record, Tables, Versions, tables};
+use super::blocks::{Place, Reader};
+use super::brep::{Lost, kind_of, read as read_brep};
 use super::chunks::class;
-use super::curves::Budget;
+use super::curves::{Budget, as_spline};
 use super::surfaces::Patch;
 use super::{extrusion, mesh};
+use crate::exchange::cad::surfaces::whole;
 use crate::exchange::cad::{CadSurfaces, Unread};
 use crate::exchange::fault::RecordFault;
-use crate::exchange::mesh::MOST_TRIANGLES;
 use crate::hull::{Brep, FaceSurface, Motion, TriangleMesh};
-use crate::spline::{BsplineSurface, KnotVector, length, minus};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
 /// What an object is.
 #[derive(Debug, Clone)]
@@ -23,8 +24,8 @@ pub(in super::super::super) enum ModelObject {
     Surface(Box<ModelSurface>),
     /// An object with faces that cannot be read, and why.
     Unread(Unread),
-    /// A curve.
-    Curve,
+    /// A curve; none where its kind is not read.
+    Curve(Option<BsplineCurve<4>>),
     /// An object without an area: a point, a text, a light.
     Other,
 }
@@ -32,7 +33,7 @@ pub(in super::super::super) enum ModelObject {
 impl ModelObject {
     /// Whether it is, or would be, part of a skin.
     pub(in super::super::super) fn has_area(&self) -> bool {
-        !matches!(self, Self::Curve | Self::Other)
+        !matches!(self, Self::Curve(_) | Self::Other)
     }
 }
 
@@ -47,9 +48,9 @@ pub(in super::super::super) struct ModelSurface {
 #[derive(Debug, Clone)]
 pub(in super::super::super) struct PlacedObject {
     pub(in super::super::super) object: ModelObject,
-    /// Index of its layer.
-    pub(in super::super::super) layer: usize,
-    /// Whether it is hidden by itself.
+    /// Indices of its layer and of those of the blocks that it is part of.
+    pub(in super::super::super) layers: Vec<usize>,
+    /// Whether it, or a block that it is part of, is hidden by itself.
     pub(in super::super::super) hidden: bool,
 }
 
@@ -70,8 +71,13 @@ pub(in super::super::super) struct Model {
     pub(in super::super::super) objects: Vec<PlacedObject>,
 }
 
-/// Points nearer to each other than this part of the size of a surface are one.
-const CLOSED: f64 = 1e-6;
+impl Model {
+    /// Whether it has curves and nothing that is, or would be, part of a skin.
+    pub(in super::super::super) fn is_drawn(&self) -> bool {
+        let is_curve = |placed: &PlacedObject| matches!(placed.object, ModelObject::Curve(_));
+        self.objects.iter().any(is_curve) && !self.objects.iter().any(|placed| placed.object.has_area())
+    }
+}
 
 /// Whether these are the first bytes of a 3DM file.
 pub(in super::super::super) fn is_3dm(bytes: &[u8]) -> bool {
@@ -84,37 +90,36 @@ pub(in super::super::super) fn is_3dm(bytes: &[u8]) -> bool {
 /// What stands in the way of reading its tables; objects that cannot be read are among its objects.
 pub(in super::super::super) fn read_3dm(bytes: &[u8]) -> Result<Model, Vec<RecordFault>> {
     let read = tables(bytes);
-    let Tables { versions, unit, layers, records, .. } =
-        read.map_err(|message| vec![RecordFault { line: None, found: String::new(), message }])?;
+    let mut tables = read.map_err(|message| vec![RecordFault { line: None, found: String::new(), message }])?;
+    let own = std::mem::take(&mut tables.layers).into_iter();
     let mut layers: Vec<ModelLayer> =
-        layers.into_iter().map(|layer| ModelLayer { name: layer.name, visible: layer.visible }).collect();
+        own.map(|layer| ModelLayer { name: layer.name, visible: layer.visible }).collect();
     let nowhere = layers.len();
     layers.iter_mut().filter(|layer| layer.name.is_empty()).for_each(|layer| "(no name)".clone_into(&mut layer.name));
     layers.push(ModelLayer { name: "(no layer)".to_owned(), visible: true });
-    let (mut budget, mut triangles) = (Budget::default(), MOST_TRIANGLES);
-    let placed = |(number, record): (usize, &Record<'_>)| {
-        let object = object(number, record, versions, (&mut budget, &mut triangles));
-        PlacedObject { object, layer: record.layer.unwrap_or(nowhere), hidden: record.mode == Mode::Hidden }
-    };
-    let seen = records.iter().enumerate().filter(|(_, record)| record.mode != Mode::Defined);
-    Ok(Model { unit, layers, objects: seen.map(placed).collect() })
+    let Tables { versions, unit, records, blocks, .. } = tables;
+    let mut reader = Reader::new(&records, &blocks, versions, nowhere);
+    for number in (0..records.len()).filter(|&k| records[k].mode != Mode::Defined) {
+        reader.place(number, &Place::default());
+    }
+    Ok(Model { unit, layers, objects: reader.placed })
 }
 
 /// Kinds of records.
-mod kind {
-    pub(super) const CURVE: u32 = 4;
-    pub(super) const SURFACE: u32 = 8;
-    pub(super) const BREP: u32 = 0x10;
-    pub(super) const MESH: u32 = 0x20;
-    pub(super) const INSTANCE: u32 = 0x1000;
-    pub(super) const SUBDIVISION: u32 = 0x4_0000;
-    pub(super) const EXTRUSION: u32 = 0x4000_0000;
+pub(super) mod kind {
+    pub(in super::super) const CURVE: u32 = 4;
+    pub(in super::super) const SURFACE: u32 = 8;
+    pub(in super::super) const BREP: u32 = 0x10;
+    pub(in super::super) const MESH: u32 = 0x20;
+    pub(in super::super) const INSTANCE: u32 = 0x1000;
+    pub(in super::super) const SUBDIVISION: u32 = 0x4_0000;
+    pub(in super::super) const EXTRUSION: u32 = 0x4000_0000;
 }
 
-fn object(
+pub(super) fn object(
     number: usize,
     record: &Record<'_>,
-    versions: super::archive::Versions,
+    versions: Versions,
     (budget, triangles): (&mut Budget, &mut usize),
 ) -> ModelObject {
     let name = format!("object {}", number + 1);
@@ -123,7 +128,7 @@ fn object(
     };
     let Some(object) = &record.object else {
         return match record.kind {
-            kind::CURVE => ModelObject::Curve,
+            kind::CURVE => ModelObject::Curve(None),
             kind::SURFACE | kind::BREP | kind::MESH | kind::INSTANCE | kind::SUBDIVISION | kind::EXTRUSION => {
                 unread("damaged object", "its records end within a value")
             }
@@ -150,14 +155,15 @@ fn object(
             }
         }
         _ => match record.kind {
-            kind::CURVE => ModelObject::Curve,
+            kind::CURVE => ModelObject::Curve(budget.curve(object).and_then(|run| as_spline(&run))),
             kind::SURFACE => match budget.surface(object) {
                 Some(patch) => ModelObject::Surface(Box::new(ModelSurface { patch, kind: kind_of(object.class) })),
                 None => unread(kind_of(object.class), "its records cannot be read"),
             },
             kind::SUBDIVISION => unread("ON_SubD", "a subdivision surface is not read: make it NURBS, or a mesh"),
-            kind::INSTANCE => unread("ON_InstanceRef", "an instance of a block is not read: explode it"),
-            kind::BREP | kind::MESH | kind::EXTRUSION => unread("object of another class", "its class is not known"),
+            kind::BREP | kind::MESH | kind::EXTRUSION | kind::INSTANCE => {
+                unread("object of another class", "its class is not known")
+            }
             _ => ModelObject::Other,
         },
     }
@@ -173,29 +179,24 @@ fn missing(object: &str, lost: &Lost) -> Unread {
 }
 
 impl ModelSurface {
-    /// Whether two opposite sides are one line, or a side is a point.
-    fn is_closed(&self) -> bool {
-        let Patch { surface, ends: [us, vs], .. } = &self.patch;
-        let shares = [0.0, 0.2, 0.5, 0.7, 1.0];
-        let on = |[a, b]: [f64; 2], share: f64| a + share * (b - a);
-        let side = |axis: usize, end: usize| {
-            let uv = |share: f64| if axis == 0 { [us[end], on(*vs, share)] } else { [on(*us, share), vs[end]] };
-            shares.map(|share| surface.at(uv(share))[0])
+    /// After a motion; none of a surface of revolution that it stretches.
+    pub(super) fn moved(&self, motion: &Motion) -> Option<Self> {
+        let Patch { surface, ends, swapped } = &self.patch;
+        let surface = match self.spline() {
+            Some(spline) => FaceSurface::Spline(spline).moved(motion),
+            None if motion.is_similar() => surface.moved(motion),
+            None => return None,
         };
-        let size = length(minus(surface.at([us[0], vs[0]])[0], surface.at([on(*us, 0.5), on(*vs, 0.5)])[0]));
-        let near = |a: &[f64; 3], b: &[f64; 3]| length(minus(*a, *b)) <= CLOSED * size;
-        [0, 1].into_iter().any(|axis| {
-            let sides = [side(axis, 0), side(axis, 1)];
-            let is_point = |side: &[[f64; 3]; 5]| side.iter().all(|point| near(point, &side[0]));
-            sides[0].iter().zip(&sides[1]).all(|(a, b)| near(a, b)) || sides.iter().any(is_point)
-        })
+        Some(Self { patch: Patch { surface, ends: *ends, swapped: *swapped }, kind: self.kind })
     }
 
-    /// As a spline that nothing closes; none of others and of surfaces of revolution.
+    /// Its control points, about.
+    pub(super) fn size(&self) -> usize {
+        self.spline().map_or(1, |spline| spline.points().len())
+    }
+
+    /// As a spline; none of surfaces of revolution.
     fn spline(&self) -> Option<BsplineSurface<4>> {
-        if self.is_closed() {
-            return None;
-        }
         let [us, vs] = self.patch.ends;
         match &self.patch.surface {
             FaceSurface::Spline(spline) => Some(spline.clone()),
@@ -226,13 +227,14 @@ pub(in super::super::super) fn united(objects: Vec<ModelObject>, unit: Option<f6
             }
             ModelObject::Surface(surface) if loose => read.surfaces.extend(surface.spline()),
             ModelObject::Surface(surface) => {
-                if whole(&surface.patch, surface.kind, &mut read.body).is_none() {
+                let Patch { surface: patch, ends, .. } = &surface.patch;
+                if whole(patch, *ends, surface.kind, &mut read.body).is_none() {
                     let (kind, why) = (surface.kind.to_owned(), "nothing bounds it".to_owned());
                     read.unread.push(Unread { line: None, name: format!("object {}", number + 1), kind, why });
                 }
             }
             ModelObject::Unread(object) => read.unread.push(object),
-            ModelObject::Mesh(_) | ModelObject::Curve | ModelObject::Other => {}
+            ModelObject::Mesh(_) | ModelObject::Curve(_) | ModelObject::Other => {}
         }
     }
     read

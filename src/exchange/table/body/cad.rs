@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::super::super::cad::{CadSurfaces, Unread};
+use super::super::super::cad::{CadSurfaces, Unread, is_closed, whole};
 use super::super::problem::{FilePosition, Problems};
 use super::super::settings::{PartChoice, Settings};
 use super::SEAM;
 use super::frame::{Given, framed};
-use crate::hull::{Brep, TriangleMesh};
+use crate::hull::{Brep, FaceSurface, TriangleMesh};
 use crate::spline::{BsplineSurface, dot, length, minus};
 use crate::units::counted;
 
@@ -41,9 +41,18 @@ pub(super) fn meshes(
     settings: &Settings,
     problems: &mut Problems,
 ) -> (Vec<TriangleMesh>, f64) {
-    let CadSurfaces { mut surfaces, unit, notes, body, mut unread, .. } = read;
+    let CadSurfaces { mut surfaces, unit, notes, mut body, mut unread, .. } = read;
     let unit = unit.unwrap_or(1.0);
     notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
+    if surfaces.iter().any(is_closed) {
+        // A ball is closed by its seam, which faces have.
+        for spline in surfaces.drain(..) {
+            let ends = [spline.u(), spline.v()].map(|knots| knots.domain().into());
+            if whole(&FaceSurface::Spline(spline), ends, "of B-splines", &mut body).is_none() {
+                unread.push(Unread { why: "nothing bounds it".to_owned(), ..Unread::default() });
+            }
+        }
+    }
     let faces = body.faces.len() + unread.len();
     if faces > 0 {
         match body.whole_surfaces().filter(|_| unread.is_empty()) {

@@ -3,7 +3,7 @@
 use super::super::problem::{FilePosition, Problems};
 use super::super::settings::{BodyFrame, Settings};
 use super::parts::of_numbers;
-use crate::hull::{BodyPart, InnerShells, TriangleMesh};
+use crate::hull::{BodyPart, DrySkin, InnerShells, TriangleMesh};
 use crate::units::counted;
 
 /// A body whose ends of an axis differ by less than this part of its size is symmetric about the zero of the axis.
@@ -126,6 +126,7 @@ pub(in super::super) fn framed(
             problems.note(format!("{} turned outward", counted(turned, "triangle")));
         }
         if !surfaces {
+            *mesh = without_dry_skin(mesh, if k == 0 { Some(&mut *problems) } else { None });
             *mesh = without_sheets(mesh, if k == 0 { Some(&mut *problems) } else { None });
             let (single, is_united) = without_inner(mesh, if k == 0 { Some(&mut *problems) } else { None });
             (*mesh, united) = (single, is_united);
@@ -223,6 +224,28 @@ fn stated([length, breadth]: [f64; 2], settings: &Settings, problems: &mut Probl
         let message = format!("L_PP is stated as {stated} m, and the body is {length:.3} m long");
         problems.warning("W310", FilePosition::FILE, message, "Correct L_PP, or the unit of the body");
     }
+}
+
+/// A mesh without the sheets that share edges with its skin inside, and the inner skin of a hollow body, turned outward; of
+/// several meshes the first alone has problems to say.
+fn without_dry_skin(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> TriangleMesh {
+    let (mesh, DrySkin { sheets, inner }) = std::mem::take(mesh).without_dry_skin();
+    if sheets + inner == 0 {
+        return mesh;
+    }
+    let left = |count: usize, what: &str| format!("{} {what}", counted(count, "triangle"));
+    let of_sheets =
+        "of sheets inside that share edges with the skin left out: bulkheads and decks add nothing to the body";
+    let of_inner =
+        "of an inner skin left out: the body is hollow, and displaces what its outer skin encloses up to the rim";
+    if let Some(problems) = problems {
+        for (count, what) in [(sheets, of_sheets), (inner, of_inner)] {
+            if count > 0 {
+                problems.warning("W320", FilePosition::FILE, left(count, what), "");
+            }
+        }
+    }
+    mesh.oriented().0
 }
 
 /// A mesh without open sheets beside its body; of several meshes the first alone has problems to say.

@@ -20,52 +20,65 @@ pub(super) fn shape(model: Model, settings: &Settings, problems: &mut Problems) 
         return Shape::Nothing;
     }
     let mut used = vec![false; layers.len()];
-    objects.iter().filter(|placed| placed.object.has_area()).for_each(|placed| used[placed.layer] = true);
+    let with_area = objects.iter().filter(|placed| placed.object.has_area());
+    with_area.flat_map(|placed| &placed.layers).for_each(|&layer| used[layer] = true);
     let known: Vec<usize> = (0..layers.len()).filter(|&k| used[k]).collect();
     let names: Vec<&str> = known.iter().map(|&k| layers[k].name.as_str()).collect();
     if names.len() > 1 {
         problems.note(format!("layers with surfaces or meshes: {}", some(&names)));
     }
     let choice = settings.frame.parts.as_deref();
-    let by_name = is_by_name(choice);
-    let mut counts: Vec<bool> = layers.iter().map(|layer| layer.visible && !by_name).collect();
-    for (&k, chosen) in known.iter().zip(chosen_names(&names, choice, problems)) {
-        counts[k] = if by_name { chosen } else { layers[k].visible };
-    }
+    let mut chosen = vec![false; layers.len()];
+    known.iter().zip(chosen_names(&names, choice, problems)).for_each(|(&k, is_chosen)| chosen[k] = is_chosen);
     if problems.any_errors() {
         return Shape::Nothing;
     }
-    let unseen = |placed: &PlacedObject| placed.hidden || !(by_name || layers[placed.layer].visible);
-    let hidden: Vec<&PlacedObject> =
-        objects.iter().filter(|placed| placed.object.has_area() && unseen(placed)).collect();
-    if !hidden.is_empty() {
-        let mut on: Vec<&str> = hidden.iter().map(|placed| layers[placed.layer].name.as_str()).collect();
+    let by_name = is_by_name(choice);
+    let counts = |placed: &PlacedObject| {
+        let mut layers_of = placed.layers.iter();
+        if by_name { layers_of.any(|&k| chosen[k]) } else { layers_of.all(|&k| layers[k].visible) }
+    };
+    let names_of = |placed: &[&PlacedObject]| -> String {
+        // That of a block may be the one that is not shown.
+        let of = |placed: &&PlacedObject| {
+            placed.layers.iter().copied().find(|&k| !layers[k].visible).unwrap_or(placed.layers[0])
+        };
+        let mut on: Vec<&str> = placed.iter().map(|placed| layers[of(placed)].name.as_str()).collect();
         on.sort_unstable();
         on.dedup();
-        let message =
-            format!("left out: {} that the file hides (layers {})", counted(hidden.len(), "object"), some(&on));
-        let remedy = "Show them in the file, or name their layers with --parts (parts in the TOML beside it)";
+        some(&on)
+    };
+    let left_out = |is: &dyn Fn(&PlacedObject) -> bool| {
+        let list: Vec<&PlacedObject> = objects.iter().filter(|placed| placed.object.has_area() && is(placed)).collect();
+        (!list.is_empty()).then(|| (counted(list.len(), "object"), names_of(&list)))
+    };
+    if let Some((count, names)) = left_out(&|placed| !by_name && !counts(placed)) {
+        let message = format!("left out: {count} on layers that the file hides ({names})");
+        let remedy =
+            "Show these layers in the file, or name those that count with --parts (parts in the TOML beside it)";
         problems.warning("W352", FilePosition::FILE, message, remedy);
     }
-    let kept: Vec<ModelObject> = objects
-        .into_iter()
-        .filter(|placed| counts[placed.layer] && !placed.hidden)
-        .map(|placed| placed.object)
-        .collect();
+    if let Some((count, names)) = left_out(&|placed| counts(placed) && placed.hidden) {
+        let message = format!("left out: {count} that the file hides one by one (layers {names})");
+        let remedy = "Show them in the file: --parts chooses among those that are shown";
+        problems.warning("W352", FilePosition::FILE, message, remedy);
+    }
+    let kept: Vec<bool> = objects.iter().map(|placed| counts(placed) && !placed.hidden).collect();
+    let kept = objects.into_iter().zip(kept).filter(|(_, kept)| *kept).map(|(placed, _)| placed.object).collect();
     of_objects(kept, unit.unwrap_or(1.0), problems)
 }
 
 /// The body of the objects: meshes, or surfaces.
 fn of_objects(objects: Vec<ModelObject>, unit: f64, problems: &mut Problems) -> Shape {
     let count = |is: fn(&ModelObject) -> bool| objects.iter().filter(|object| is(object)).count();
-    let curves = count(|object| matches!(object, ModelObject::Curve));
+    let curves = count(|object| matches!(object, ModelObject::Curve(_)));
     let others = count(|object| matches!(object, ModelObject::Other));
     let meshes = count(|object| matches!(object, ModelObject::Mesh(_)));
     let surfaces = count(|object| matches!(object, ModelObject::Faces(..) | ModelObject::Surface(_)));
     let left = format!("{} and {} of points, texts and the like", counted(curves, "curve"), counted(others, "object"));
     if meshes + surfaces + count(ModelObject::has_area) == 0 {
         let message = format!("no surfaces and no meshes that are shown: {left}");
-        let remedy = "Give surfaces or a mesh; curves are read from IGES and DXF files";
+        let remedy = "Show surfaces or a mesh. Curves make a table where a file has nothing else";
         problems.error("E350", FilePosition::FILE, message, remedy);
         return Shape::Nothing;
     }

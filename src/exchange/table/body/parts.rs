@@ -35,8 +35,14 @@ fn names(choice: Option<&[PartChoice]>) -> Vec<&str> {
 }
 
 /// Whether parts are chosen by their names.
-pub(super) fn is_by_name(choice: Option<&[PartChoice]>) -> bool {
+pub(in super::super) fn is_by_name(choice: Option<&[PartChoice]>) -> bool {
     !names(choice).is_empty()
+}
+
+/// Whether a name is chosen, or none is.
+pub(super) fn is_chosen(own: &str, choice: Option<&[PartChoice]>) -> bool {
+    let names = names(choice);
+    names.is_empty() || names.iter().any(|name| own.eq_ignore_ascii_case(name))
 }
 
 /// Which of the names a file has are chosen; all where none is. A name that it has not is a problem.
@@ -55,7 +61,7 @@ pub(in super::super) fn chosen_names(
             problems.error("E311", FilePosition::FILE, format!("parts: no part '{name}'"), &remedy);
         }
     }
-    known.iter().map(|own| names.is_empty() || names.iter().any(|name| own.eq_ignore_ascii_case(name))).collect()
+    known.iter().map(|own| is_chosen(own, choice)).collect()
 }
 
 /// The mesh of the named parts that are chosen; says what there are.

@@ -73,6 +73,12 @@ impl Waterline<'_> {
         all.map(|[_, y, _]| y.abs()).max_by(f64::total_cmp)
     }
 
+    /// Whether it reaches the centreplane at x, from the side or along a transom.
+    fn meets_centreplane(&self, x: f64, slack: f64) -> bool {
+        let points = || self.curves.iter().flat_map(|line| &line.points);
+        points().any(|[own, y, _]| (own - x).abs() <= slack && y.abs() <= slack)
+    }
+
     /// Its ends.
     fn range(&self) -> [f64; 2] {
         let ranges = self.curves.iter().map(|line| line.range(0));
@@ -97,7 +103,7 @@ impl<'a> Along<'a> {
         let ends: Vec<[f64; 2]> = waterlines
             .iter()
             .flat_map(|line| line.range().map(|x| (x, line)))
-            .filter(|(x, line)| line.breadth(*x).is_some_and(|y| y <= SEAM * size))
+            .filter(|(x, line)| line.meets_centreplane(*x, SEAM * size))
             .map(|(x, line)| [x, line.z])
             .collect();
         let flat = |line: &SpaceCurve| line.points.iter().map(|&[x, _, z]| [x, z]).collect::<Vec<_>>();
