@@ -66,7 +66,7 @@ fn areas_that_no_section_has_are_refused_with_numbers() {
         ("10,9\n40,9\n", 2, ["E421 --section-areas", "40.000 m"]),
         ("10,9\n14,900\n", 2, ["E421 --section-areas", "900"]),
         // C_M of 0.88 says what the area at midship is.
-        ("14,31.5\n", 4, ["E420 --section-areas A@14.000 31.500 m2 is out of reach: 28.5", "C_M 0.8800"]),
+        ("14,31.5\n", 4, ["E420 --section-areas A@14.000 31.500 m2 is out of reach: 28.4", "C_M 0.8800"]),
     ] {
         let file = folder.write("areas.csv", format!("x,area\n{rows}"));
         let (code, _, err) =
@@ -164,4 +164,13 @@ fn the_price_of_a_tolerance_is_a_derivative() {
     let (_, found) = at(within);
     let found = found.unwrap();
     assert!(found.count > 0 && (found.price / slope - 1.0).abs() < 0.02, "{found:?} {slope}");
+}
+
+/// The sections of the yacht of PDSTRIP hang from a keel with rocker: its waterlines are no lines of the net.
+#[test]
+fn the_wave_resistance_of_a_rockered_hull_is_refused() {
+    let out = folder("derive-rocker").join("out").display().to_string();
+    let (status, _, message) =
+        run(&["catalogue:pdstrip-yacht", "--wave-resistance", "0.3", "-o", &out, "--no-figures"]);
+    assert!(status == 2 && message.contains("E425 --wave-resistance") && message.contains("not lines"), "{message}");
 }

@@ -207,7 +207,7 @@ fn source(job: &BlendJob, k: usize) -> Result<Source, Failure> {
         overrides.keys.push((key, value.clone()));
     }
     let source = read_source_with(&job.hulls[k], &overrides)?;
-    let Some(draught) = own().filter(|own| own.key == "T").last() else { return Ok(source) };
+    let Some(draught) = own().rfind(|own| own.key == "T") else { return Ok(source) };
     let place = format!("--of {}:T={}", draught.number, draught.value);
     let metres = parse_length(&draught.value).map_err(|error| Failure::Usage(format!("{place}: {error}")))?;
     let hull = source.hull.with_draught(metres).map_err(|error| Failure::Usage(format!("{place}: {error}")))?;
