@@ -228,7 +228,7 @@ pub mod variation {
         Derived, Dimensions, Interval, Method, Origin, Quantity, Reached, Reference, Refusal, Request, Target, derive,
     };
     pub use crate::exchange::ComparedValue;
-    pub use crate::report::{CompareOutputs, ComparedHull, DeriveOutputs};
+    pub use crate::report::{BlendOutputs, CompareOutputs, ComparedHull, DeriveOutputs};
 }
 
 pub mod powering {

@@ -7,6 +7,7 @@
 //! | [`fair`] | a table of offsets, or a job file | the fair hull, what moved, the certificate |
 //! | [`fair_curve`] | the points of a curve | the fair curve |
 //! | [`derive()`] | a parent: any hull, table, design, mesh or CAD file | the daughter with other dimensions and coefficients |
+//! | [`blend`] | two hulls or more | the hull between them, by weights or targets |
 //! | [`compare`] | two of them | particulars, hydrostatics and distances beside each other |
 //! | [`hydrostatics`] | any hull, table, mesh or CAD file | hydrostatics at any draughts |
 //! | [`open`] | the same | the hull, for [`sections`] and [`export`] |
@@ -38,15 +39,15 @@ pub use crate::hull::{Cut, Hull, OffsetTable, Section};
 pub use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 #[doc(no_inline)]
 pub use crate::report::{
-    CompareOutputs, DeriveOutputs, ExportFormat, Exported, Failure, FairOutputs, FairedCurve, FitOutputs, OutputFile,
-    Outputs, Source,
+    BlendOutputs, CompareOutputs, DeriveOutputs, ExportFormat, Exported, Failure, FairOutputs, FairedCurve, FitOutputs,
+    OutputFile, Outputs, Source,
 };
 
 use crate::config::{DeriveFile, read_derive_option};
 use crate::report::{
-    CompareJob, CurveJob, Destination, ExportSettings, Inputs, Overrides, ReportSettings, compare_outputs,
-    derive_outputs, fair_outputs, faired_curve, fit_outputs, generate_outputs, read_derive_job, read_design, read_fair,
-    read_fit, read_hydrostatic_body, read_result, read_source, report_outputs, sections_of,
+    BlendJob, CompareJob, CurveJob, Destination, ExportSettings, Inputs, Overrides, ReportSettings, blend_outputs,
+    compare_outputs, derive_outputs, fair_outputs, faired_curve, fit_outputs, generate_outputs, read_derive_job,
+    read_design, read_fair, read_fit, read_hydrostatic_body, read_result, read_source, report_outputs, sections_of,
 };
 
 /// Hydrostatics of a body, and what should be known about it.
@@ -97,11 +98,29 @@ pub fn fair(table: impl AsRef<Path>, settings: &[(&str, &str)]) -> Result<FairOu
 /// [`Failure::FileSystem`]; [`Failure::Input`] and [`Failure::Options`] for values that are wrong; [`Failure::Infeasible`]
 /// where no daughter meets the targets, with what is within reach.
 pub fn derive(parent: impl AsRef<Path>, wanted: &[(&str, &str)]) -> Result<DeriveOutputs, Failure> {
+    derive_outputs(&read_derive_job(parent.as_ref(), options(wanted)?, Overrides::default(), false)?, &[])
+}
+
+/// What keys of a job file of `derive` state with their values.
+fn options(wanted: &[(&str, &str)]) -> Result<DeriveFile, Failure> {
     let mut options = DeriveFile::default();
     for &(key, value) in wanted {
         options = options.over(read_derive_option(key, key, value).map_err(Failure::Options)?);
     }
-    derive_outputs(&read_derive_job(parent.as_ref(), options, Overrides::default(), false)?, &[])
+    Ok(options)
+}
+
+/// The hull between two or more: hulls, tables, designs, meshes or CAD files. Their weights in the order of the hulls are at least 0
+/// and sum to 1. With none they follow from `wanted`, keys of a job file of [`derive()`] with their values, as `("Cb", "0.62")`:
+/// dimensions, and at most one target less than hulls. No figures are drawn.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] and [`Failure::Options`] for values that are wrong; [`Failure::Infeasible`]
+/// where no weights meet the targets, with what is within reach.
+pub fn blend<P: AsRef<Path>>(hulls: &[P], weights: &[f64], wanted: &[(&str, &str)]) -> Result<BlendOutputs, Failure> {
+    let hulls = hulls.iter().map(|path| path.as_ref().to_owned()).collect();
+    let weights = (!weights.is_empty()).then(|| weights.to_vec());
+    blend_outputs(&BlendJob { hulls, weights, wanted: options(wanted)?, ..BlendJob::default() }, &[])
 }
 
 /// Two hulls, tables, designs, meshes or CAD files beside each other, each at its own draught.

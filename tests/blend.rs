@@ -231,6 +231,53 @@ fn the_ends_of_an_interval_are_feasible() {
     }
 }
 
+/// A hull at its own draught, and what has no common chart.
+#[test]
+fn a_hull_has_its_own_draught_and_profiles_must_be_alike() {
+    let folder = folder("own-draught");
+    let out = folder.join("out").display().to_string();
+    let wigley = config("wigley.toml");
+    let with = |of: &str, more: &[&str]| {
+        run(&[
+            &["blend", &wigley, &wigley, "--weights", "0.5,0.5", "--of", of, "-o", &out, "--no-figures", "--force"],
+            more,
+        ]
+        .concat())
+    };
+    // At 5 m the second hull is 5/6.25 as deep in the water: brought to T 6.25 it is another form.
+    let (status, _, message) = with("2:T=5", &["-q"]);
+    assert_eq!(status, 0, "{message}");
+    let read = |key: &str| json(folder.read("out/summary.json"))["design"][key].as_f64().unwrap();
+    let fuller = |t: f64| {
+        // C_B of Wigley's sections up to the height t of T 6.25: 1 - c^2 from the keel, over t.
+        let part = t / 6.25;
+        2.0 / 3.0 * (1.0 - (1.0 - (1.0 - part).powi(3)) / (3.0 * part))
+    };
+    let expected = 0.5 * (4.0 / 9.0 + fuller(5.0));
+    assert!((read("CB") - expected).abs() < 2e-5, "{} {expected}", read("CB"));
+    for (of, words) in [("3:T=5", "hull 3"), ("2:T=50", "--of 2:T=50"), ("2:up=z", "up")] {
+        let (status, _, message) = with(of, &[]);
+        assert!((2..=3).contains(&status) && message.contains(words), "{of}: {status} {message}");
+    }
+    let (status, _, message) = with("2:draught=5", &[]);
+    assert!(status == 2 && message.contains("waterline_spacing"), "{message}");
+    let ellipsoid = config("ellipsoid.toml");
+    let (status, _, message) = run(&["blend", &wigley, &ellipsoid, "--weights", "0.5,0.5", "-o", &out, "--force"]);
+    assert!(status == 2 && message.contains("E424") && message.contains("have no common chart"), "{status} {message}");
+}
+
+/// The prelude blends what the command does.
+#[test]
+fn a_program_blends() {
+    let hulls = [config("wigley.toml"), config("box.toml")];
+    let half = loftsman::prelude::blend(&hulls, &[0.5, 0.5], &[("depth", "12")]);
+    assert!(half.is_err(), "an unknown key is refused");
+    let made = loftsman::prelude::blend(&hulls, &[], &[("Cb", "0.6")]).unwrap();
+    let [a, b] = made.weights()[..] else { panic!() };
+    assert!((a * 4.0 / 9.0 + b - 0.6).abs() < 1e-6, "{a} {b}");
+    assert!((made.outputs.design_row.block_coefficient.unwrap() - 0.6).abs() < 1e-9);
+}
+
 /// Each code of this command is explained.
 #[test]
 fn codes_of_a_blend_are_explained() {

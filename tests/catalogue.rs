@@ -46,6 +46,18 @@ fn every_hull_has_a_source_and_a_licence_and_the_figures_of_its_publication() {
         assert!((entry.block - block).abs() < 0.006, "{name}: {}", entry.block);
         assert!((entry.lcb.unwrap() - lcb).abs() < 0.15, "{name}: {:?}", entry.lcb);
     }
+    // Closed forms of the modified Wigley hulls, and the volumes 0.0946 and 0.0780 m3 that are published of I and III on 3 m.
+    for (name, block, midship, waterplane, published) in [
+        ("wigley-i", 0.560_731, 0.909_091, 0.693_333, Some(0.0946)),
+        ("wigley-iii", 0.462_222, 0.666_667, 0.693_333, Some(0.0780)),
+        ("wigley-blunt", 0.634_382, 0.909_091, 0.803_810, None),
+    ] {
+        let entry = list.iter().find(|entry| entry.name == name).unwrap();
+        assert!((entry.block - block).abs() < 5e-4 && (entry.waterplane - waterplane).abs() < 5e-4, "{entry:?}");
+        assert!((entry.midship.unwrap() - midship).abs() < 1e-3 && entry.lcb.unwrap().abs() < 0.01, "{entry:?}");
+        let model = entry.volume * 0.03_f64.powi(3);
+        assert!(published.is_none_or(|volume| (model - volume).abs() < 1e-4), "{model}");
+    }
     // All that is carried is below 1 MB.
     let size: u64 =
         fs::read_dir(carried("configs/catalogue")).unwrap().map(|f| f.unwrap().metadata().unwrap().len()).sum();
@@ -91,6 +103,8 @@ fn a_folder_of_hulls_is_listed_and_a_file_is_given_out() {
     let done = program(&["catalogue", "series60-cb060", "-o", out]);
     assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
     assert!(stdout(&done).contains("Licence: a publication of the US government"), "{}", stdout(&done));
+    let picture = fs::read(to.join("series60-cb060.png")).unwrap();
+    assert!(picture.starts_with(b"\x89PNG") && picture.len() > 20_000, "{}", picture.len());
     let done = program(&["catalogue", "--catalogue", out, "--like", "L=121.92 m,Cb=0.6", "--json"]);
     let json: serde_json::Value = serde_json::from_str(&stdout(&done)).unwrap();
     let hulls = json["hulls"].as_array().unwrap();

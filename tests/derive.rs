@@ -6,7 +6,7 @@ use std::fs;
 use loftsman::internals::config::{DeriveFile, read_derive_option};
 use loftsman::internals::derivation::{Dimensions, Method, Quantity, Reference, Refusal, Request, derive, value_of};
 use loftsman::internals::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::internals::report::{DeriveJob, DeriveOutputs, Overrides, derive_outputs, read_source};
+use loftsman::internals::report::{DeriveJob, DeriveOutputs, Overrides, derive_files, derive_outputs, read_source};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
@@ -324,6 +324,12 @@ fn the_wave_resistance_falls_as_its_weight_rises() {
         assert!(error(target.achieved, target.requested) < 1e-10, "{target:?}");
     }
     assert!(outputs.inflections[1] <= outputs.inflections[0] + 2, "{:?}", outputs.inflections);
+    // The weights are drawn.
+    let files = derive_files(&job("wigley", &options), &outputs, true).unwrap();
+    let drawn = |name: &str| files.iter().find(|file| file.name == name).map(|file| file.contents.clone());
+    let svg = String::from_utf8(drawn("wave-trade.svg").unwrap()).unwrap();
+    assert!(svg.contains("knee: w = ") && drawn("wave-trade.png").unwrap().len() > 10_000);
+    assert!(String::from_utf8(drawn("report.md").unwrap()).unwrap().contains("wave-trade.png"));
 }
 
 /// With raked ends the form is a sum over waterlines; half-breadths stay within what `--within` states.

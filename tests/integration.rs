@@ -19,6 +19,7 @@ mod codes;
 mod compare;
 mod configs;
 mod derive;
+mod derive_targets;
 mod draught;
 mod dry_skin;
 mod dxf;

@@ -8,7 +8,9 @@ use super::run_files::{Figures, Made, RunFiles};
 use super::target_flags::{TARGETS, TargetFlags};
 use crate::derivation::Dimension;
 use crate::exchange::blend_json;
-use crate::report::{BlendJob, Destination, Failure, Inputs, blend_files, blend_outputs, blend_page, source_files};
+use crate::report::{
+    BlendJob, Destination, Failure, HULL_KEYS, Inputs, OfHull, blend_files, blend_outputs, blend_page, source_files,
+};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -24,6 +26,10 @@ pub(super) struct Arguments {
     /// Dimension that may change for the targets: lpp, beam or draught; may be repeated
     #[arg(long, value_parser = dimension, value_name = "NAME", help_heading = TARGETS)]
     free: Vec<Dimension>,
+    /// Convention of one hull, as 2:T=9.5 or 1:units=ft; keys: T, units, up, axes, body, parts, stations, station_spacing,
+    /// waterline_spacing; may be repeated
+    #[arg(long, value_parser = of_hull, value_name = "N:KEY=VALUE")]
+    of: Vec<OfHull>,
     /// Print what each target can be with the others as they are
     #[arg(long)]
     limits: bool,
@@ -50,10 +56,24 @@ fn dimension(word: &str) -> Result<Dimension, String> {
     found.ok_or_else(|| format!("{word:?} is none of lpp, beam, draught"))
 }
 
+/// `2:T=9.5`
+fn of_hull(text: &str) -> Result<OfHull, String> {
+    let expected = || format!("expected N:KEY=VALUE with a KEY of {}", HULL_KEYS.join(", "));
+    let (number, rest) = text.split_once(':').ok_or_else(expected)?;
+    let (key, value) = rest.split_once('=').ok_or_else(expected)?;
+    let number = number.trim().parse::<usize>().ok().filter(|number| *number > 0).ok_or_else(expected)?;
+    let key = HULL_KEYS.into_iter().find(|known| *known == key.trim()).ok_or_else(expected)?;
+    if key == "T" {
+        super::positive(value.trim())?;
+    }
+    Ok(OfHull { number, key, value: value.trim().to_owned() })
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let job = BlendJob {
         hulls: arguments.hulls.clone(),
         overrides: arguments.stations.with(&arguments.conventions),
+        of: arguments.of.clone(),
         wanted: arguments.targets.wanted(&[])?,
         weights: (!arguments.weights.is_empty()).then(|| arguments.weights.clone()),
         free: arguments.free.clone(),

@@ -7,7 +7,7 @@ use clap::Args;
 use super::stream;
 use crate::report::{
     Destination, Failure, Inputs, OutputFile, WANTED, catalogue, catalogue_file, catalogue_json, catalogue_names,
-    catalogue_page, ranked,
+    catalogue_page, catalogue_picture, ranked,
 };
 use crate::units::{Dimension, parse};
 
@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     /// One JSON object
     #[arg(long)]
     json: bool,
-    /// Folder for the file of the hull
+    /// Folder for the file of the hull and its lines plan
     #[arg(short, long, value_name = "FOLDER", requires = "name")]
     output: Option<PathBuf>,
     /// Overwrite the file when it is there already
@@ -66,7 +66,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         if let (Some(folder), Some((file, text))) = (&arguments.output, file) {
             let destination = Destination { folder, inputs: &Inputs::of::<PathBuf>(&[]), force: arguments.force };
-            destination.write(&[OutputFile::text(&file, text)])?;
+            let mut files = vec![OutputFile::text(&file, text)];
+            if cfg!(feature = "pictures") {
+                files.push(catalogue_picture(name)?);
+            }
+            destination.write(&files)?;
             stream::message(&format!("written to {}", folder.join(file).display()));
         }
     }

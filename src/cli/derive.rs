@@ -26,7 +26,10 @@ pub(super) struct Arguments {
     /// Design draught of the parent [default: its own]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = DIMENSIONS)]
     parent_draught: Option<String>,
-    /// Aft and fore end of the parallel body, as 40,55, with --method lackenby
+    /// Areas of sections below the design draught, both sides: a CSV of x and area
+    #[arg(long, value_name = "FILE", help_heading = TARGETS)]
+    section_areas: Option<String>,
+    /// Aft and fore end of the parallel body, as 40,55, with --method nearest or lackenby
     #[arg(long, value_name = "AFT,FORE", allow_hyphen_values = true, help_heading = TARGETS)]
     parallel_body: Option<String>,
     /// Froude numbers at which the wave resistance is made small, as 0.25:0.30:0.01, with displacement, centres and signs held
@@ -61,8 +64,8 @@ nearest: sections are shifted smoothly for C_B and LCB, then half-breadths chang
 centreplane and flat of side stay. lackenby and one-minus-prismatic: the classical shifts, iterated until C_P and LCB are exact. affine: \
 dimensions alone.
 --wave-resistance adds the mean of R_W over that of the parent to the bending, of thin ships (Michell), as one convex program.
-A job file has the same in [derive]: parent, method, Lpp, B, T, D, displacement, Cb, Cp, Cm, Cwp, LCB, LCF, KB, KM, wetted_surface, \
-parallel_body, wave_resistance, wave_weight, within, free. Options override it.
+A job file has the same in [derive]: parent, method, Lpp, B, T, D, displacement, Cb, Cp, Cm, Cwp, LCB, LCF, KB, KM, GM, KG, \
+wetted_surface, entrance, run, section_areas, parallel_body, wave_resistance, wave_weight, within, free. Options override it.
 Files: those of generate, derive.json, compare.md, compare.csv, compare.json and the figures that compare parent and daughter. Exit code 4 \
 when no daughter meets the targets; the message states what is within reach.";
 
@@ -71,6 +74,7 @@ impl Arguments {
         let own = [
             ("--method", "method", self.method.as_ref()),
             ("--parent-draught", "parent_draught", self.parent_draught.as_ref()),
+            ("--section-areas", "section_areas", self.section_areas.as_ref()),
             ("--parallel-body", "parallel_body", self.parallel_body.as_ref()),
             ("--wave-resistance", "wave_resistance", self.wave_resistance.as_ref()),
             ("--wave-weight", "wave_weight", self.wave_weight.as_ref()),
@@ -86,7 +90,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let job = read_derive_job(&arguments.parent, arguments.wanted()?, overrides, arguments.limits)?;
     let folder = arguments.files.folder(&arguments.parent, false);
     let mut read = source_files(&job.parent);
-    read.extend(job.file.clone());
+    read.extend(job.other_inputs());
     let inputs = Inputs::of(&read);
     let destination = Destination { folder: &folder, inputs: &inputs, force: arguments.files.force };
     destination.check(["hull.json", "derive.json", "manifest.json"])?;

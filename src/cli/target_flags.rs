@@ -50,6 +50,18 @@ pub(super) struct TargetFlags {
     /// Height of the transverse metacentre
     #[arg(long, value_name = "KM", allow_hyphen_values = true, help_heading = TARGETS)]
     km: Option<String>,
+    /// Transverse metacentric height, with --kg: KM = KG + GM, without free surfaces
+    #[arg(long, value_name = "GM", allow_hyphen_values = true, help_heading = TARGETS)]
+    gm: Option<String>,
+    /// Height of the centre of gravity, of --gm
+    #[arg(long, value_name = "KG", allow_hyphen_values = true, help_heading = TARGETS)]
+    kg: Option<String>,
+    /// Half angle of entrance of the design waterline, degrees
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, help_heading = TARGETS)]
+    entrance: Option<String>,
+    /// Half angle of run of the design waterline, degrees
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, help_heading = TARGETS)]
+    run: Option<String>,
     /// Wetted surface, m2
     #[arg(long, value_name = "AREA", allow_hyphen_values = true, help_heading = TARGETS)]
     wetted_surface: Option<String>,
@@ -75,6 +87,10 @@ impl TargetFlags {
             ("--lcf", "LCF", &self.lcf),
             ("--kb", "KB", &self.kb),
             ("--km", "KM", &self.km),
+            ("--gm", "GM", &self.gm),
+            ("--kg", "KG", &self.kg),
+            ("--entrance", "entrance", &self.entrance),
+            ("--run", "run", &self.run),
             ("--wetted-surface", "wetted_surface", &self.wetted_surface),
         ];
         let (mut wanted, mut problems): (DeriveFile, Vec<Diagnostic>) = Default::default();
@@ -89,6 +105,9 @@ impl TargetFlags {
         }
         if self.cb.is_some() && self.displacement.is_some() {
             return Err(Failure::Usage("--cb and --displacement are one target: leave one of them out".to_owned()));
+        }
+        if self.km.is_some() && self.gm.is_some() {
+            return Err(Failure::Usage("--km and --gm are one target: leave one of them out".to_owned()));
         }
         if problems.is_empty() { Ok(wanted) } else { Err(Failure::Options(problems)) }
     }

@@ -46,11 +46,25 @@ pub const DERIVE_KEYS: &[Key] = &[
     of("LCF", Kind::CentreOfBuoyancy, "Longitudinal centre of flotation. Default: free."),
     of("KB", Kind::Length, "Height of the centre of buoyancy above the base line. Default: free."),
     of("KM", Kind::Length, "Height of the transverse metacentre above the base line. Default: free."),
+    of(
+        "GM",
+        Kind::Length,
+        "Transverse metacentric height, with KG: KM = KG + GM, without free surfaces. Default: free.",
+    ),
+    of("KG", Kind::Length, "Height of the centre of gravity above the base line, of GM."),
     of("wetted_surface", Kind::Area, "Wetted surface. Default: free."),
+    of("entrance", Kind::Angle, "Half angle of entrance of the design waterline. Default: free."),
+    of("run", Kind::Angle, "Half angle of run of the design waterline. Default: free."),
+    of(
+        "section_areas",
+        Kind::SectionAreas,
+        "Areas of sections below the design draught, both sides: [[x, area]], or a CSV of x and area (a path from this file). Volume, \
+         LCB and C_M are then free.",
+    ),
     of(
         "parallel_body",
         Kind::Positions,
-        "Aft and fore end of the parallel body, of the method lackenby. Default: of the parent.",
+        "Aft and fore end of the parallel body, of the methods nearest and lackenby. Default: of the parent.",
     ),
     of(
         "wave_resistance",
@@ -83,8 +97,16 @@ pub struct DeriveFile {
     pub centres: [Option<[f64; 2]>; 2],
     /// KB and KM \[m\].
     pub heights: [Option<f64>; 2],
+    /// GM and KG \[m\].
+    pub stability: [Option<f64>; 2],
     /// Wetted surface \[m^2\].
     pub wetted_surface: Option<f64>,
+    /// Half angles of entrance and run \[deg\].
+    pub angles: [Option<f64>; 2],
+    /// Positions \[m\] and areas of sections \[m^2\].
+    pub section_areas: Vec<[f64; 2]>,
+    /// The file that has them.
+    pub area_file: Option<String>,
     /// Aft and fore end of the parallel body \[m\].
     pub parallel_body: Option<[f64; 2]>,
     /// Froude numbers at which the wave resistance is made small.
@@ -108,6 +130,15 @@ impl DeriveFile {
         } else {
             (other.mass, other.volume, other.coefficients[0])
         };
+        // KM and GM are one target, and so are areas and the file of them.
+        let (height, stability) = if self.heights[1].is_some() || self.stability[0].is_some() {
+            (self.heights[1], [self.stability[0], self.stability[1].or(other.stability[1])])
+        } else {
+            (other.heights[1], [other.stability[0], self.stability[1].or(other.stability[1])])
+        };
+        let own_areas = self.area_file.is_some() || !self.section_areas.is_empty();
+        let (section_areas, area_file) =
+            if own_areas { (self.section_areas, self.area_file) } else { (other.section_areas, other.area_file) };
         let each = |k: usize| self.coefficients[k].or(other.coefficients[k]);
         Self {
             parent: self.parent.or(other.parent),
@@ -118,8 +149,12 @@ impl DeriveFile {
             volume,
             coefficients: [block, each(1), each(2), each(3)],
             centres: [0, 1].map(|k| self.centres[k].or(other.centres[k])),
-            heights: [0, 1].map(|k| self.heights[k].or(other.heights[k])),
+            heights: [self.heights[0].or(other.heights[0]), height],
+            stability,
             wetted_surface: self.wetted_surface.or(other.wetted_surface),
+            angles: [0, 1].map(|k| self.angles[k].or(other.angles[k])),
+            section_areas,
+            area_file,
             parallel_body: self.parallel_body.or(other.parallel_body),
             froude_numbers: self.froude_numbers.or(other.froude_numbers),
             wave_weight: self.wave_weight.or(other.wave_weight),
@@ -204,6 +239,58 @@ fn centre(document: &mut Document<'_>, path: &str) -> Option<[f64; 2]> {
     }
 }
 
+/// A half angle of the waterline \[deg\].
+fn half_angle(document: &mut Document<'_>, path: &str) -> Option<f64> {
+    let value = document.number(path)?.to_degrees();
+    if (0.1..=85.0).contains(&value) {
+        return Some(value);
+    }
+    let span = document.entry(path).map_or(0..0, |e| e.span.clone());
+    let message = format!("{path} is {value} deg");
+    document.problem("E124", path, &span, message, "Expected a half angle of 0.1 to 85 deg.".to_owned());
+    None
+}
+
+/// Positions and areas, or the name of the file that has them.
+fn section_areas(document: &mut Document<'_>) -> (Vec<[f64; 2]>, Option<String>) {
+    let path = "derive.section_areas";
+    let Some((raw, span, kind)) = document.raw(path) else { return (Vec::new(), None) };
+    let number = |(raw, _): &(Raw, _)| match raw {
+        Raw::Number(value) if value.is_finite() => Some(*value),
+        _ => None,
+    };
+    let pair = |(item, _): &(Raw, _)| match item {
+        Raw::Array(numbers) => match numbers.iter().map(number).collect::<Option<Vec<f64>>>()?[..] {
+            [x, area] => Some([x, area]),
+            _ => None,
+        },
+        _ => None,
+    };
+    match &raw {
+        Raw::Text(file) if !file.trim().is_empty() => return (Vec::new(), Some(file.trim().to_owned())),
+        Raw::Array(items) => {
+            if let Some(list) = items.iter().map(pair).collect::<Option<Vec<_>>>() {
+                return (list, None);
+            }
+            let message = format!("{path} has an item that is no pair of finite numbers");
+            document.problem("E122", path, &span, message, "Expected [[x, area], ...], m and m2.".to_owned());
+        }
+        _ => document.unexpected(path, &raw, &span, kind),
+    }
+    (Vec::new(), None)
+}
+
+/// GM and KG, which state KM together.
+fn stability(document: &mut Document<'_>) -> [Option<f64>; 2] {
+    let found = ["derive.GM", "derive.KG"].map(|path| positive(document, path, "length"));
+    if let (Some(_), Some(entry)) = (found[0], document.entry("derive.KM")) {
+        let span = entry.key_span.clone();
+        let message = "derive.GM and derive.KM are one target".to_owned();
+        document.problem("E126", "derive.GM", &span, message, "Leave one of them out.".to_owned());
+    }
+    found
+}
+
 fn parallel_body(document: &mut Document<'_>) -> Option<[f64; 2]> {
     let path = "derive.parallel_body";
     let list = document.positions(path)?;
@@ -257,6 +344,7 @@ fn interpret(document: &mut Document<'_>) -> DeriveFile {
         let message = "derive.Cb and derive.displacement are one target".to_owned();
         document.problem("E126", "derive.Cb", &span, message, "Leave one of them out.".to_owned());
     }
+    let (section_areas, area_file) = section_areas(document);
     let free = document.word("derive.free").filter(|word| *word != "none");
     DeriveFile {
         parent: document.text("derive.parent"),
@@ -268,7 +356,11 @@ fn interpret(document: &mut Document<'_>) -> DeriveFile {
         coefficients: ["derive.Cb", "derive.Cp", "derive.Cm", "derive.Cwp"].map(|path| coefficient(document, path)),
         centres: ["derive.LCB", "derive.LCF"].map(|path| centre(document, path)),
         heights: ["derive.KB", "derive.KM"].map(|path| positive(document, path, "length")),
+        stability: stability(document),
         wetted_surface: positive(document, "derive.wetted_surface", "area"),
+        angles: ["derive.entrance", "derive.run"].map(|path| half_angle(document, path)),
+        section_areas,
+        area_file,
         parallel_body: parallel_body(document),
         froude_numbers: froude_numbers(document),
         wave_weight: positive(document, "derive.wave_weight", "weight"),
@@ -312,10 +404,19 @@ mod tests {
             ("--lpp", "Lpp", "0", "E124 --lpp"),
             ("--method", "method", "lackenbi", "Did you mean \"lackenby\"?"),
             ("--displacement", "displacement", "-4", "E124 --displacement"),
+            ("--entrance", "entrance", "95", "E124 --entrance"),
+            ("--gm", "GM", "-1", "E124 --gm"),
         ] {
             let found = read_derive_option(option, key, value).unwrap_err()[0].to_string();
             assert!(found.contains(code), "{found}");
         }
+        let areas =
+            read_derive("j.toml", "[derive]\nsection_areas = [[40, 12.5], [50, 13]]\nrun = \"12 deg\"").unwrap();
+        assert_eq!(areas.section_areas, [[40.0, 12.5], [50.0, 13.0]]);
+        assert!((areas.angles[1].unwrap() - 12.0).abs() < 1e-12);
+        let found = read_derive("j.toml", "[derive]\nGM = 1\nKM = 8\nsection_areas = [[40]]").unwrap_err();
+        let codes: Vec<&str> = found.iter().map(|problem| problem.code).collect();
+        assert_eq!(codes, ["E126", "E122"]);
         let found = read_derive("j.toml", "[derive]\nCb = 0.7\ndisplacement = 4000\nLbp = 3").unwrap_err();
         let codes: Vec<&str> = found.iter().map(|problem| problem.code).collect();
         assert_eq!(codes, ["E126", "E121"]);

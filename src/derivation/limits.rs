@@ -47,9 +47,10 @@ pub(super) fn interval(
     reference: &Reference,
     quantity: Quantity,
     others: &[Target],
+    body: Option<[f64; 2]>,
 ) -> Option<Interval> {
     let of = |signs: bool| {
-        let end = |way: f64| extreme(parent, start, reference, (quantity, way), others, signs);
+        let end = |way: f64| extreme((parent, start), reference, (quantity, way), (others, body), signs);
         Some([end(1.0)?, end(-1.0)?])
     };
     let [low, high] = of(true).or_else(|| of(false))?;
@@ -58,14 +59,13 @@ pub(super) fn interval(
 
 /// The least value of `quantity`, or the greatest for a `way` of -1.
 fn extreme(
-    parent: &Hull,
-    start: &Hull,
+    (parent, start): (&Hull, &Hull),
     reference: &Reference,
     (quantity, way): (Quantity, f64),
-    others: &[Target],
+    (others, body): (&[Target], Option<[f64; 2]>),
     signs: bool,
 ) -> Option<f64> {
-    let mut search = Search::new(parent, start, reference, others);
+    let mut search = Search::new(parent, start, reference, others, body);
     search.rounds = ROUNDS;
     if !signs {
         search.without_signs();

@@ -3,6 +3,7 @@
 //! ```text
 //! minimise    J(c)                                     the bending of the change c
 //! subject to  g_k . c = -r_k                           the equations of the targets, linearised where they are not linear
+//!             y_ij = y_i+1,j                           in a parallel body
 //!             0 <= y + c <= B/2, order of sections and waterlines, signs of curvature
 //! ```
 //!
@@ -13,6 +14,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::bending::form;
+use super::parallel::{Band, band};
 use super::pool::{AT_LIMIT, Candidate, Kind, candidates};
 use super::quantity::{Equation, Reference, equation};
 use super::request::Target;
@@ -31,6 +33,10 @@ const TANGENTS: usize = 12;
 const ROUNDS: usize = 40;
 /// Most rows of a round for each row that is in the program.
 const LEAST_ADDED: usize = 120;
+/// Optimum over (B/2)^2 that a duality gap is divided by at least.
+const LEAST_OPTIMUM: f64 = 1e-9;
+/// A multiplier beside the square of B/2 from which a limit binds.
+const BINDS: f64 = 1e-7;
 /// Most corrections.
 const CORRECTIONS: usize = 4;
 
@@ -47,18 +53,30 @@ pub(super) enum Failed {
     Program(ProblemError),
 }
 
+/// Limits of one kind that bound an answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BindingLimits {
+    /// What they are about: `centreplane`, `breadth`, `order`, `signs` or `within`.
+    pub kind: &'static str,
+    /// How many of them bind.
+    pub count: usize,
+    /// Derivative of the optimum by a slack that all of them get: at most 0, since limits that widen cost nothing. [m] where
+    /// the slack is one of half-breadths, [m^3] where it is one of curvatures.
+    pub price: f64,
+}
+
 /// The nearest hull.
 #[derive(Debug, Clone)]
 pub(super) struct Nearest {
     pub(super) hull: Hull,
-    /// dJ per unit of relative change of each target \[m^2\].
+    /// Derivative of the optimum by the relative change of each target, with its sign \[m^2\].
     pub(super) prices: Vec<f64>,
     /// J of the change \[m^2\].
     pub(super) energy: f64,
-    /// Duality gap of the last program, relative.
+    /// Duality gap of the last program over its optimum.
     pub(super) gap: f64,
-    /// Limits that bound the answer.
-    pub(super) binding: usize,
+    /// Limits that bound the answer, by kind.
+    pub(super) binding: Vec<BindingLimits>,
     /// Programs that were solved.
     pub(super) programs: usize,
 }
@@ -76,7 +94,8 @@ pub(super) fn breadths(hull: &Hull) -> Vec<f64> {
     hull.surface().points().iter().map(|point| point[1]).collect()
 }
 
-/// What is free of the net: not keel, stem, stern and deck, not the centreplane, not the flat of side.
+/// What is free of the net: not keel, stem, stern and deck, not the centreplane, not the flat of side. In a parallel body all is
+/// free but stem and stern, and with it the edge of the flat of bottom.
 pub(super) struct Freedom {
     /// The number of each point among the free ones.
     pub(super) places: Vec<Option<usize>>,
@@ -85,15 +104,17 @@ pub(super) struct Freedom {
 }
 
 impl Freedom {
-    pub(super) fn of(hull: &Hull) -> Self {
+    pub(super) fn of(hull: &Hull, band: Option<&Band>) -> Self {
         let surface = hull.surface();
         let [rows, columns] = surface.shape();
         let breadth = hull.particulars().breadth;
         let slack = AT_LIMIT * breadth;
         let is_free = |k: usize| {
             let (i, j, y) = (k / columns, k % columns, surface.points()[k][1]);
-            let edge = i == 0 || j == 0 || i + 1 == rows || j + 1 == columns;
-            !edge && y > slack && (y - 0.5 * breadth).abs() > slack
+            let end = i == 0 || i + 1 == rows;
+            let edge = end || (j == 0 && band.is_none()) || j + 1 == columns;
+            let in_band = !end && band.is_some_and(|band| band.holds(i, j));
+            in_band || (!edge && y > slack && (y - 0.5 * breadth).abs() > slack)
         };
         let points: Vec<usize> = (0..rows * columns).filter(|k| is_free(*k)).collect();
         let mut places = vec![None; rows * columns];
@@ -125,6 +146,8 @@ pub(super) struct Search<'a> {
     /// Unit of the changes \[m\].
     pub(super) unit: f64,
     form: SparseRows,
+    /// The parallel body, where one is stated.
+    band: Option<Band>,
     /// The wave resistance with its weight [m^2].
     waves: Option<(&'a WaveTerm, f64)>,
     pub(super) programs: usize,
@@ -137,12 +160,21 @@ pub(super) struct Answer {
     pub(super) y: Vec<f64>,
     pub(super) multipliers: Vec<f64>,
     gap: f64,
+    /// Kinds of the limits that were in the program with the sizes of their rows, in the order of their multipliers.
+    limits: Vec<(Kind, f64)>,
 }
 
 impl<'a> Search<'a> {
-    /// With the limits of `parent` on the chart of `start`.
-    pub(super) fn new(parent: &Hull, start: &'a Hull, reference: &'a Reference, targets: &'a [Target]) -> Self {
-        let freedom = Freedom::of(start);
+    /// With the limits of `parent` on the chart of `start`, and the sections alike between the ends of a parallel body.
+    pub(super) fn new(
+        parent: &Hull,
+        start: &'a Hull,
+        reference: &'a Reference,
+        targets: &'a [Target],
+        body: Option<[f64; 2]>,
+    ) -> Self {
+        let band = body.and_then(|ends| band(start, reference.draught, ends));
+        let freedom = Freedom::of(start, band.as_ref());
         let bears = |candidate: &Candidate| candidate.row.iter().any(|(k, _)| freedom.places[*k].is_some());
         let candidates: Vec<Candidate> = candidates(parent, start).into_iter().filter(bears).collect();
         let form = form(start, &freedom.places);
@@ -156,14 +188,25 @@ impl<'a> Search<'a> {
             base: breadths(start),
             unit: 0.5 * start.particulars().breadth,
             form,
+            band,
             waves: None,
             programs: 0,
             rounds: ROUNDS,
         }
     }
 
+    /// The equations of the targets, then those of the parallel body.
     pub(super) fn equations(&self, hull: &Hull) -> Vec<Equation> {
-        self.targets.iter().map(|target| equation(target.quantity, target.value, hull, self.reference)).collect()
+        let targets = self.targets.iter().map(|target| equation(target.quantity, target.value, hull, self.reference));
+        let [columns, points] = [hull.surface().shape()[1], hull.surface().points().len()];
+        let pairs = self.band.iter().flat_map(|band| band.pairs(columns));
+        let alike = pairs.map(|[a, b]| {
+            let mut gradient = vec![0.0; points];
+            (gradient[a], gradient[b]) = (-1.0 / self.unit, 1.0 / self.unit);
+            let rise = hull.surface().points()[b][1] - hull.surface().points()[a][1];
+            Equation { residual: rise / self.unit, gradient }
+        });
+        targets.chain(alike).collect()
     }
 
     /// The program: equations hold at `at` by their tangents there; `towards` replaces the bending by a linear objective.
@@ -177,9 +220,8 @@ impl<'a> Search<'a> {
             lower.push(moved - equation.residual);
             upper.push(moved - equation.residual);
         }
-        for candidate in self.candidates.iter().zip(&self.taken).filter(|(_, taken)| **taken).map(|(c, _)| c) {
-            let row = self.freedom.row(candidate.row.iter().copied());
-            let size = row.iter().map(|(_, w)| w.abs()).fold(0.0, f64::max).max(1e-300) * self.unit;
+        for candidate in self.in_program() {
+            let (row, size) = self.limit(candidate);
             rows.push(row.iter().map(|(k, w)| (*k, w * self.unit / size)));
             // A start that misses a row is held to what it has at most.
             lower.push((candidate.lower - candidate.value(&self.base)) / size);
@@ -190,6 +232,18 @@ impl<'a> Search<'a> {
             Some(row) => (SparseRows::from_entries(n, n, &[]), row.to_vec()),
         };
         Problem { quadratic, linear, rows, lower, upper }
+    }
+
+    /// The limits that are in the program.
+    fn in_program(&self) -> impl Iterator<Item = &Candidate> {
+        self.candidates.iter().zip(&self.taken).filter(|(_, taken)| **taken).map(|(candidate, _)| candidate)
+    }
+
+    /// The row of a limit over the free points, and its size.
+    fn limit(&self, candidate: &Candidate) -> (Vec<(usize, f64)>, f64) {
+        let row = self.freedom.row(candidate.row.iter().copied());
+        let size = row.iter().map(|(_, w)| w.abs()).fold(0.0, f64::max).max(1e-300) * self.unit;
+        (row, size)
     }
 
     /// Hessian and slope of J + w R over the square of the unit.
@@ -253,8 +307,11 @@ impl<'a> Search<'a> {
             }
             let mut y = self.base.clone();
             self.freedom.points.iter().zip(&solution.x).for_each(|(&k, c)| y[k] += self.unit * c);
+            let limits: Vec<(Kind, f64)> =
+                self.in_program().map(|candidate| (candidate.kind, self.limit(candidate).1)).collect();
             if !self.take_missed(&y) {
-                return Ok(Answer { y, multipliers: solution.multipliers, gap: certificate.gap.abs() });
+                let gap = (certificate.primal - certificate.dual).abs() / certificate.primal.abs().max(LEAST_OPTIMUM);
+                return Ok(Answer { y, multipliers: solution.multipliers, gap, limits });
             }
         }
         Err(Failed::Infeasible)
@@ -274,6 +331,9 @@ impl<'a> Search<'a> {
     /// Corrects what the equations are off by with the least change of points that stand off the centreplane.
     fn correct(&self, mut y: Vec<f64>) -> Result<(Vec<f64>, f64), Failed> {
         let off = |equations: &[Equation]| equations.iter().map(|e| e.residual.abs()).fold(0.0, f64::max);
+        if let Some(band) = &self.band {
+            band.level(&mut y, self.start.surface().shape()[1]);
+        }
         let mut best = (y.clone(), f64::INFINITY);
         for _ in 0..=CORRECTIONS {
             let hull = with_breadths(self.start, &y).map_err(Failed::Hull)?;
@@ -285,6 +345,8 @@ impl<'a> Search<'a> {
                 break;
             }
             let loose: Vec<usize> = self.freedom.points.iter().copied().filter(|&k| y[k] > 1e-4 * self.unit).collect();
+            let bears = |equation: &Equation| loose.iter().any(|&k| equation.gradient[k].abs() > 0.0);
+            let equations: Vec<Equation> = equations.into_iter().filter(bears).collect();
             let rows = DMatrix::from_fn(equations.len(), loose.len(), |k, i| equations[k].gradient[loose[i]]);
             let normal = &rows * rows.transpose();
             let residuals = DVector::from_iterator(equations.len(), equations.iter().map(|e| -e.residual));
@@ -323,13 +385,8 @@ impl<'a> Search<'a> {
         if left > 1e-10 {
             return Err(Failed::Astray(left));
         }
-        let count = self.targets.len();
-        let square = self.unit * self.unit;
-        let prices = last
-            .as_ref()
-            .map_or(vec![0.0; count], |answer| answer.multipliers[..count].iter().map(|z| z.abs() * square).collect());
-        let binding =
-            last.as_ref().map_or(0, |answer| answer.multipliers[count..].iter().filter(|z| z.abs() > 1e-7).count());
+        let prices = last.as_ref().map_or(vec![0.0; self.targets.len()], |answer| self.prices(answer));
+        let binding = last.as_ref().map_or(Vec::new(), |answer| self.binding(answer));
         Ok(Nearest {
             hull: with_breadths(self.start, &y).map_err(Failed::Hull)?,
             prices,
@@ -338,6 +395,27 @@ impl<'a> Search<'a> {
             binding,
             programs: self.programs,
         })
+    }
+
+    /// Derivatives of the optimum by the targets: of rows g.c = r the multiplier z is -dJ/dr.
+    fn prices(&self, answer: &Answer) -> Vec<f64> {
+        let square = self.unit * self.unit;
+        answer.multipliers[..self.targets.len()].iter().map(|z| -z * square).collect()
+    }
+
+    /// The limits that bind, by kind.
+    fn binding(&self, answer: &Answer) -> Vec<BindingLimits> {
+        let multipliers = &answer.multipliers[answer.multipliers.len() - answer.limits.len()..];
+        let of_kind = |kind: Kind| {
+            let bind = answer.limits.iter().zip(multipliers).filter(|((k, _), z)| *k == kind && z.abs() > BINDS);
+            let (mut count, mut price) = (0, 0.0);
+            for ((_, size), z) in bind {
+                count += 1;
+                price -= z.abs() * self.unit * self.unit / size;
+            }
+            BindingLimits { kind: kind.word(), count, price }
+        };
+        Kind::ALL.map(of_kind).into_iter().filter(|limits| limits.count > 0).collect()
     }
 
     /// Leaves the signs of curvature out.

@@ -35,6 +35,21 @@ pub(super) enum Kind {
     Tolerance,
 }
 
+impl Kind {
+    pub(super) const ALL: [Self; 5] = [Self::Centreplane, Self::Breadth, Self::Crossing, Self::Sign, Self::Tolerance];
+
+    /// The word in files.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Centreplane => "centreplane",
+            Self::Breadth => "breadth",
+            Self::Crossing => "order",
+            Self::Sign => "signs",
+            Self::Tolerance => "within",
+        }
+    }
+}
+
 /// row . y >= lower.
 #[derive(Debug, Clone)]
 pub(super) struct Candidate {

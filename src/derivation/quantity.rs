@@ -5,12 +5,13 @@
 //!
 //! ```text
 //! V = V*,   M - LCB V = 0,   A(L/2) = C_M B T,   V - C_P L A(x_X) = 0,   A_W = C_WP L B,
-//! M_W - LCF A_W = 0,   M_z - KB V = 0,   M_z + I - KM V = 0,   S = S*
+//! M_W - LCF A_W = 0,   M_z - KB V = 0,   tan i = -+dy/dx,   A(x) = A*,   M_z + I - KM V = 0,   S = S*
 //! ```
 //!
 //! All but the last two, and the place x_X of the largest section, are linear in the half-breadths on a fixed chart. Each is
-//! divided by its size, so that residuals are relative.
+//! divided by its size, so that residuals are relative: to the value, and to L_PP for LCB and LCF.
 
+use super::ending::{WaterlineEnd, slope};
 use crate::hull::{Functional, Hull, SectionalAreaCurve, transverse_inertia, transverse_inertia_gradient};
 use crate::hydrostatics::{CoefficientLength, Conventions, PrismaticSection, wetted_surface, wetted_surface_gradient};
 
@@ -20,7 +21,7 @@ const STATIONS: usize = 161;
 const HALVINGS: usize = 60;
 
 /// A quantity that can be a target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
     /// Displacement volume \[m^3\].
     Volume,
@@ -40,11 +41,20 @@ pub enum Quantity {
     Km,
     /// Wetted surface \[m^2\].
     WettedSurface,
+    /// Half angle of entrance of the design waterline \[deg\].
+    HalfAngleOfEntrance,
+    /// Half angle of run of the design waterline \[deg\].
+    HalfAngleOfRun,
+    /// Area of a section below T, both sides \[m^2\].
+    SectionArea {
+        /// Position forward of AP \[m\].
+        x: f64,
+    },
 }
 
 impl Quantity {
-    /// Every quantity, in the order of tables.
-    pub const ALL: [Self; 9] = [
+    /// Every quantity but the areas of sections, in the order of tables.
+    pub const ALL: [Self; 11] = [
         Self::Volume,
         Self::Lcb,
         Self::MidshipCoefficient,
@@ -54,6 +64,8 @@ impl Quantity {
         Self::Kb,
         Self::Km,
         Self::WettedSurface,
+        Self::HalfAngleOfEntrance,
+        Self::HalfAngleOfRun,
     ];
 
     /// The key of its row in tables of hydrostatics.
@@ -69,6 +81,18 @@ impl Quantity {
             Self::Kb => "KB",
             Self::Km => "KMT",
             Self::WettedSurface => "S",
+            Self::HalfAngleOfEntrance => "IE",
+            Self::HalfAngleOfRun => "IR",
+            Self::SectionArea { .. } => "A",
+        }
+    }
+
+    /// The key, of areas with the position: `A@45.000`.
+    #[must_use]
+    pub fn label(self) -> String {
+        match self {
+            Self::SectionArea { x } => format!("A@{x:.3}"),
+            _ => self.key().to_owned(),
         }
     }
 
@@ -85,6 +109,9 @@ impl Quantity {
             Self::Kb => "kb",
             Self::Km => "km",
             Self::WettedSurface => "wetted-surface",
+            Self::HalfAngleOfEntrance => "entrance",
+            Self::HalfAngleOfRun => "run",
+            Self::SectionArea { .. } => "section-areas",
         }
     }
 
@@ -94,7 +121,8 @@ impl Quantity {
         match self {
             Self::Volume => "m3",
             Self::Lcb | Self::Lcf | Self::Kb | Self::Km => "m",
-            Self::WettedSurface => "m2",
+            Self::WettedSurface | Self::SectionArea { .. } => "m2",
+            Self::HalfAngleOfEntrance | Self::HalfAngleOfRun => "deg",
             _ => "-",
         }
     }
@@ -196,7 +224,24 @@ pub fn value_of(quantity: Quantity, hull: &Hull, reference: &Reference) -> f64 {
         Quantity::Kb => of(Functional::VerticalMoment) / of(Functional::Volume),
         Quantity::Km => (of(Functional::VerticalMoment) + transverse_inertia(hull, t)) / of(Functional::Volume),
         Quantity::WettedSurface => wetted_surface(hull, t),
+        Quantity::HalfAngleOfEntrance => angle(hull, t, WaterlineEnd::Fore),
+        Quantity::HalfAngleOfRun => angle(hull, t, WaterlineEnd::Aft),
+        Quantity::SectionArea { x } => of(Functional::SectionArea { x }),
     }
+}
+
+/// The half angle at an end of the waterline \[deg\]; not a number where the end is round.
+fn angle(hull: &Hull, draught: f64, end: WaterlineEnd) -> f64 {
+    slope(hull, draught, end).map_or(f64::NAN, |(slope, _)| slope.atan().to_degrees())
+}
+
+/// The equation that tan of the half angle at an end is that of `target` \[deg\].
+fn angle_equation(hull: &Hull, draught: f64, end: WaterlineEnd, target: f64) -> Equation {
+    let wanted = target.to_radians().tan();
+    let mut gradient = vec![0.0; hull.surface().points().len()];
+    let Some((found, weights)) = slope(hull, draught, end) else { return Equation { residual: f64::NAN, gradient } };
+    weights.into_iter().for_each(|(k, weight)| gradient[k] += weight / wanted);
+    Equation { residual: found / wanted - 1.0, gradient }
 }
 
 /// An equation at a net: what it is off by, relative to its size, and the gradient of that over the net.
@@ -266,5 +311,8 @@ pub(super) fn equation(quantity: Quantity, target: f64, hull: &Hull, reference: 
             residual: wetted_surface(hull, t) / target - 1.0,
             gradient: combined(&[(1.0, wetted_surface_gradient(hull, t))], target),
         },
+        Quantity::HalfAngleOfEntrance => angle_equation(hull, t, WaterlineEnd::Fore, target),
+        Quantity::HalfAngleOfRun => angle_equation(hull, t, WaterlineEnd::Aft, target),
+        Quantity::SectionArea { x } => linear(&[(1.0, Functional::SectionArea { x })], target, target),
     }
 }

@@ -97,7 +97,7 @@ pub struct Request {
     pub free: Vec<Quantity>,
     /// The method.
     pub method: Method,
-    /// Ends of the parallel body of the daughter \[m\], of the method of Lackenby.
+    /// Ends of the parallel body of the daughter \[m\], of the nearest hull and of the method of Lackenby.
     pub parallel_body: Option<[f64; 2]>,
     /// The wave resistance that is made small, of the nearest hull.
     #[doc(hidden)]
@@ -133,9 +133,23 @@ impl Request {
             let kept = || Target { quantity, value: value_of(quantity, scaled, reference), origin: Origin::Kept };
             list.extend(stated.or_else(|| self.keeps(quantity).then(kept)));
         }
+        list.extend(self.areas().map(|(x, value)| Target {
+            quantity: Quantity::SectionArea { x },
+            value,
+            origin: Origin::Given,
+        }));
         let mut refused: Vec<Refusal> = list.iter().filter_map(|target| impossible(target, reference)).collect();
+        refused.extend(list.iter().filter_map(|target| undefined(target, scaled, reference)));
         refused.extend(self.of_method(&list));
         if refused.is_empty() { Ok(list) } else { Err(refused) }
+    }
+
+    /// Positions and areas of the sections that are stated.
+    fn areas(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.targets.iter().filter_map(|(quantity, area)| match quantity {
+            Quantity::SectionArea { x } => Some((*x, *area)),
+            _ => None,
+        })
     }
 
     pub(super) fn names(&self, quantity: Quantity) -> bool {
@@ -160,6 +174,8 @@ impl Request {
             }
             _ => false,
         };
+        // A curve of areas says what volume, LCB and C_M are.
+        let kept = kept && self.areas().next().is_none();
         kept && !self.free.contains(&quantity)
     }
 
@@ -190,11 +206,34 @@ impl Request {
             let message = format!("method {} takes no wave resistance", self.method.as_str());
             refused.push(Refusal::new("E422", vec!["wave-resistance"], message, "Take --method nearest".to_owned()));
         }
-        if self.parallel_body.is_some() && self.method != Method::Lackenby {
+        if self.parallel_body.is_some() && !matches!(self.method, Method::Lackenby | Method::Nearest) {
             let message = format!("method {} takes no parallel body", self.method.as_str());
-            refused.push(Refusal::new("E422", vec!["parallel-body"], message, "Take --method lackenby".to_owned()));
+            let remedy = "Take --method nearest or lackenby".to_owned();
+            refused.push(Refusal::new("E422", vec!["parallel-body"], message, remedy));
         }
         refused
+    }
+}
+
+/// What the scaled parent has no value of, so that no daughter on its chart has.
+pub(super) fn undefined(target: &Target, scaled: &Hull, reference: &Reference) -> Option<Refusal> {
+    let word = target.quantity.word();
+    match target.quantity {
+        Quantity::SectionArea { x } => {
+            let [aft, fore] = scaled.endings(reference.draught)?;
+            let inside = x > aft && x < fore;
+            (!inside).then(|| {
+                let message = format!("the section at {x:.3} m is not between the ends of the waterline");
+                let remedy = format!("Give positions between {aft:.3} and {fore:.3} m");
+                Refusal::new("E421", vec![word], message, remedy)
+            })
+        }
+        quantity if !value_of(quantity, scaled, reference).is_finite() => {
+            let message = format!("the design waterline of the parent ends round, where {} is 90 deg", quantity.key());
+            let remedy = "Leave it out, or derive from a hull with sharp ends of the waterline".to_owned();
+            Some(Refusal::new("E420", vec![word], message, remedy))
+        }
+        _ => None,
     }
 }
 
@@ -208,6 +247,8 @@ pub(super) fn impossible(target: &Target, reference: &Reference) -> Option<Refus
         Quantity::Kb => [0.0, t],
         Quantity::Km => [0.0, t + b * b / (12.0 * t) / 0.1],
         Quantity::WettedSurface => [0.0, 2.0 * (l * b + l * t + b * t)],
+        Quantity::HalfAngleOfEntrance | Quantity::HalfAngleOfRun => [0.0, 89.0],
+        Quantity::SectionArea { .. } => [0.0, b * t],
     };
     let block = target.quantity == Quantity::Volume;
     let value = if block { target.value / reference.volume() } else { target.value };
@@ -215,7 +256,8 @@ pub(super) fn impossible(target: &Target, reference: &Reference) -> Option<Refus
     if strictly && value.is_finite() {
         return None;
     }
-    let (word, name) = if block { ("displacement", "C_B") } else { (target.quantity.word(), target.quantity.key()) };
+    let (word, name) =
+        if block { ("displacement", "C_B".to_owned()) } else { (target.quantity.word(), target.quantity.label()) };
     let unit =
         if target.quantity.unit() == "-" || block { String::new() } else { format!(" {}", target.quantity.unit()) };
     let message = format!("{name} is {value:.4}{unit}; a ship has more than {low} and less than {high:.4}{unit}");

@@ -8,8 +8,8 @@ use crate::hull::SurfaceDistance;
 /// A target of a daughter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DerivedTarget {
-    /// Key of its quantity: `DISPVOL`, `XCB`, `CM`, ...
-    pub key: &'static str,
+    /// Key of its quantity: `DISPVOL`, `XCB`, `CM`, `A@45.000`, ...
+    pub key: String,
     /// Unit, `-` for none.
     pub unit: &'static str,
     /// `given` or `kept`.
@@ -20,7 +20,7 @@ pub struct DerivedTarget {
     pub requested: f64,
     /// The value of the daughter.
     pub achieved: f64,
-    /// Shadow price: bending energy of the change per relative change of the target \[m^2\].
+    /// Shadow price: derivative of the optimum by the relative change of the target, of LCB and LCF by that over L_PP \[m^2\].
     pub price: Option<f64>,
     /// Least and greatest value with the others as they are.
     pub interval: Option<[f64; 2]>,
@@ -76,8 +76,12 @@ pub struct DeriveReport<'a> {
     pub shift: Option<[[f64; 2]; 3]>,
     /// C_B that the shift alone reaches.
     pub shift_reach: Option<[f64; 2]>,
-    /// Bending energy of the change \[m^2\], relative duality gap, limits that bound it, programs.
-    pub program: (f64, f64, usize, usize),
+    /// Bending energy of the change \[m^2\], duality gap over the optimum, programs.
+    pub program: (f64, f64, usize),
+    /// Limits that bound it: what they are about, how many, and the derivative of the optimum by a slack that all of them get.
+    pub limits: Vec<(&'static str, usize, f64)>,
+    /// Ends of the parallel body that is held \[m\].
+    pub parallel_body: Option<[f64; 2]>,
     /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
     pub inflections: [usize; 2],
     /// How far the daughter is from the scaled parent.
@@ -88,7 +92,7 @@ pub struct DeriveReport<'a> {
     pub warnings: &'a [String],
 }
 
-/// `{"parent", "method", "targets", "shift", "program", "inflections", "moved_from_scaled_parent", "wave_resistance", "warnings"}`.
+/// `{"parent", "method", "targets", "shift", "program", "parallel_body", "inflections", "moved_from_scaled_parent", "wave_resistance", "warnings"}`.
 #[must_use]
 pub fn derive_json(report: &DeriveReport<'_>) -> Value {
     let target = |t: &DerivedTarget| {
@@ -107,14 +111,17 @@ pub fn derive_json(report: &DeriveReport<'_>) -> Value {
     let shift = report.shift.map(|[amplitudes, low, high]| {
         json!({ "aft_fore": amplitudes, "folds_below": low, "folds_above": high, "CB_alone": report.shift_reach })
     });
-    let (energy, gap, binding, programs) = report.program;
+    let (energy, gap, programs) = report.program;
+    let limit = |(kind, count, price): &(&str, usize, f64)| json!({ "kind": kind, "binding": count, "shadow_price": json_number(Some(*price)) });
+    let limits: Vec<Value> = report.limits.iter().map(limit).collect();
     let moved = report.moved.map(|d| json!({ "largest": d.largest, "at": d.at, "rms": d.rms }));
     json!({
         "parent": report.parent,
         "method": report.method,
         "targets": report.targets.iter().map(target).collect::<Vec<_>>(),
         "shift": shift,
-        "program": { "energy": json_number(Some(energy)), "gap": json_number(Some(gap)), "binding": binding, "solved": programs },
+        "program": { "energy": json_number(Some(energy)), "gap": json_number(Some(gap)), "limits": limits, "solved": programs },
+        "parallel_body": report.parallel_body,
         "inflections": { "scaled_parent": report.inflections[0], "daughter": report.inflections[1] },
         "moved_from_scaled_parent": moved,
         "wave_resistance": report.waves.as_ref().map(waves_json),

@@ -37,8 +37,8 @@ impl From<&Particulars> for PrincipalParticulars {
 /// A coefficient that was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetLine {
-    /// `CB`, `CM`, `XCB`, `CWP`.
-    pub key: &'static str,
+    /// `CB`, `CM`, `XCB`, `CWP`, `A@45.000`.
+    pub key: String,
     /// Asked for; XCB in metres from AP.
     pub requested: f64,
     /// What the hull has.

@@ -66,6 +66,7 @@ mod table_sheet;
 #[cfg(test)]
 mod tests;
 mod title_block;
+mod trade;
 mod view;
 mod zero_lines;
 
@@ -100,3 +101,4 @@ pub use smoothing::smoothing_figure;
 pub use surface_map::{SurfaceMapKind, SurfaceMaps, surface_map};
 pub use suspects::{suspect_heights_figure, suspect_points_figure, suspects_figure};
 pub use table_sheet::{table_figure, table_sheets};
+pub use trade::{TradePoint, trade_figure};

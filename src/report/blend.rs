@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::compare::{CompareOutputs, other_conventions};
 use super::derive::{is_about_as_fair, target_line};
-use super::derived_hull::{DerivedHull, input_file, refused, run_files, stated_targets};
+use super::derived_hull::{DerivedHull, input_file, refused, run_files, stability_is_whole, stated_targets};
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{Outputs, json_file};
@@ -14,17 +14,35 @@ use crate::derivation::{Blend, BlendRequest, BlendTarget, Dimension, Dimensions,
 use crate::exchange::{BlendPart, BlendReport, DerivedTarget, blend_json};
 use crate::numeric::join;
 use crate::plot::Figure;
+use crate::units::parse_length;
 
 /// Part of L_PP that a hull may move on its way to the common chart before a warning tells of it.
 const MOVED: f64 = 1e-4;
 
+/// Keys that one hull of a blend may have: its design draught, and conventions of its table or body.
+pub const HULL_KEYS: [&str; 9] =
+    ["T", "units", "up", "axes", "body", "parts", "stations", "station_spacing", "waterline_spacing"];
+
+/// A convention of one hull of a blend.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OfHull {
+    /// Its number in the order of the hulls, from 1.
+    pub number: usize,
+    /// One of [`HULL_KEYS`].
+    pub key: &'static str,
+    /// The value, as it would stand in the file beside a table.
+    pub value: String,
+}
+
 /// What is asked for.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct BlendJob {
     /// The hulls: hulls, folders of results, designs, tables, meshes or CAD files.
     pub hulls: Vec<PathBuf>,
-    /// Conventions of tables and bodies over those of their files.
+    /// Conventions of tables and bodies over those of their files, of all hulls.
     pub overrides: Overrides,
+    /// Those of single hulls, over these.
+    pub of: Vec<OfHull>,
     /// Dimensions and targets of the blend.
     pub wanted: DeriveFile,
     /// The weights, where they are given.
@@ -41,12 +59,15 @@ pub struct BlendOutputs {
     /// The blend with its tables, figures and pages, as of `generate`.
     pub outputs: Outputs,
     /// How it was blended.
+    #[doc(hidden)]
     pub blend: Blend,
     /// The blend beside the hull of largest weight.
     pub comparison: CompareOutputs,
     /// Its hulls.
+    #[doc(hidden)]
     pub parts: Vec<BlendPart>,
     /// The targets.
+    #[doc(hidden)]
     pub targets: Vec<DerivedTarget>,
     /// Words of the dimensions that were free.
     pub free: Vec<&'static str>,
@@ -57,8 +78,15 @@ pub struct BlendOutputs {
 }
 
 impl BlendOutputs {
+    /// The weights, in the order of the hulls.
+    #[must_use]
+    pub fn weights(&self) -> Vec<f64> {
+        self.parts.iter().map(|part| part.weight).collect()
+    }
+
     /// What `blend.json` and the JSON of the command hold.
     #[must_use]
+    #[doc(hidden)]
     pub fn report(&self) -> BlendReport<'_> {
         BlendReport {
             hulls: &self.parts,
@@ -101,7 +129,7 @@ fn request(job: &BlendJob, density: f64) -> BlendRequest {
 fn target(reached: &BlendTarget) -> DerivedTarget {
     let quantity = reached.target.quantity;
     DerivedTarget {
-        key: quantity.key(),
+        key: quantity.label(),
         unit: quantity.unit(),
         origin: reached.target.origin.as_str(),
         scaled: reached.of_hulls.iter().sum::<f64>() / reached.of_hulls.len().max(1) as f64,
@@ -119,8 +147,12 @@ fn target(reached: &BlendTarget) -> DerivedTarget {
 /// reach; [`Failure::Options`] for weights and targets that do not go together (E423), values that no ship has (E421) and
 /// profiles without a common chart (E424).
 pub fn blend_outputs(job: &BlendJob, figures: &[Figure]) -> Result<BlendOutputs, Failure> {
-    let sources = job.hulls.iter().map(|path| read_source_with(path, &job.overrides));
-    let sources: Vec<Source> = sources.collect::<Result<_, _>>()?;
+    stability_is_whole(&job.wanted)?;
+    let sources: Vec<Source> = (0..job.hulls.len()).map(|k| source(job, k)).collect::<Result<_, _>>()?;
+    if let Some(beyond) = job.of.iter().find(|own| own.number > job.hulls.len()) {
+        let message = format!("--of names hull {}, and {} are given", beyond.number, job.hulls.len());
+        return Err(Failure::Usage(message));
+    }
     let without = sources.iter().zip(&job.hulls).filter(|(source, _)| source.hull.particulars().draught.is_none());
     let without: Vec<Diagnostic> = without.map(|(_, path)| no_draught(path)).collect();
     if !without.is_empty() {
@@ -166,13 +198,29 @@ pub fn blend_outputs(job: &BlendJob, figures: &[Figure]) -> Result<BlendOutputs,
     Ok(BlendOutputs { outputs: outputs?, blend: made, comparison, parts, targets, free, warnings, notes })
 }
 
+/// A hull with its own conventions over those of all, at its own draught.
+fn source(job: &BlendJob, k: usize) -> Result<Source, Failure> {
+    let own = || job.of.iter().filter(move |own| own.number == k + 1);
+    let mut overrides = job.overrides.clone();
+    for OfHull { key, value, .. } in own().filter(|own| own.key != "T") {
+        overrides.keys.retain(|(other, _)| other != key);
+        overrides.keys.push((key, value.clone()));
+    }
+    let source = read_source_with(&job.hulls[k], &overrides)?;
+    let Some(draught) = own().rfind(|own| own.key == "T") else { return Ok(source) };
+    let place = format!("--of {}:T={}", draught.number, draught.value);
+    let metres = parse_length(&draught.value).map_err(|error| Failure::Usage(format!("{place}: {error}")))?;
+    let hull = source.hull.with_draught(metres).map_err(|error| Failure::Usage(format!("{place}: {error}")))?;
+    Ok(Source { hull, ..source })
+}
+
 fn no_draught(path: &std::path::Path) -> Diagnostic {
     let message = "states no draught, at which the hulls of a blend are brought together".to_owned();
     problem(
         "E184",
         path,
         message,
-        "State its own: T in its side file or under [dimensions]; --draught is that of the blend",
+        "State its own with --of N:T=9.5, N its number, or in its side file; --draught is that of the blend",
     )
 }
 
@@ -210,5 +258,5 @@ fn warnings(job: &BlendJob, made: &Blend, parts: &[BlendPart]) -> Vec<String> {
 pub fn blend_files(job: &BlendJob, outputs: &BlendOutputs, drawn: bool) -> Result<Vec<OutputFile>, Failure> {
     let record = json_file("blend.json", &blend_json(&outputs.report()))?;
     let inputs: Vec<PathBuf> = job.hulls.iter().map(|path| input_file(path)).collect();
-    run_files(&outputs.outputs, record, &outputs.comparison, &inputs, drawn)
+    run_files(&outputs.outputs, vec![record], &outputs.comparison, &inputs, drawn)
 }

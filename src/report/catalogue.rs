@@ -12,19 +12,27 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::failure::{Failure, problem};
+use super::files::OutputFile;
+use super::generate::figure_files;
 use super::hydrostatic_body::read_hydrostatic_body;
+use super::source::read_source;
 use crate::config::{TEMPLATES, template};
+use crate::hydrostatics::{CurvesOfForm, default_draughts};
+use crate::plot::{Figure, FigureInputs};
 
 /// How paths of the catalogue begin.
 const PREFIX: &str = "catalogue:";
 
 /// Tables of the catalogue.
-const TABLES: [(&str, &str); 5] = [
+const TABLES: [(&str, &str); 8] = [
     ("pdstrip-yacht", include_str!("../../configs/catalogue/pdstrip-yacht.csv")),
     ("s175", include_str!("../../configs/catalogue/s175.csv")),
     ("series60-cb060", include_str!("../../configs/catalogue/series60-cb060.csv")),
     ("series60-cb070", include_str!("../../configs/catalogue/series60-cb070.csv")),
     ("series60-cb075", include_str!("../../configs/catalogue/series60-cb075.csv")),
+    ("wigley-blunt", include_str!("../../configs/catalogue/wigley-blunt.csv")),
+    ("wigley-i", include_str!("../../configs/catalogue/wigley-i.csv")),
+    ("wigley-iii", include_str!("../../configs/catalogue/wigley-iii.csv")),
 ];
 
 /// The index, as [`index_csv`] makes it.
@@ -232,6 +240,10 @@ pub fn catalogue(folder: Option<&Path>) -> Result<(Vec<CatalogueEntry>, Vec<Stri
         if path.extension().is_some_and(|ending| ending == "toml") && (beside("csv") || beside("xlsx")) {
             continue;
         }
+        let is_picture = |ending: &std::ffi::OsStr| ["png", "svg", "pdf"].iter().any(|known| ending == *known);
+        if path.extension().is_some_and(is_picture) {
+            continue;
+        }
         let name = path.display().to_string();
         match entry(path, &name, ["", "the folder", ""]) {
             Ok(Some(entry)) => entries.push(entry),
@@ -255,6 +267,31 @@ pub fn ranked(entries: Vec<CatalogueEntry>, wanted: &[(&'static str, f64)]) -> V
         .collect();
     list.sort_by(|a, b| a.1.unwrap_or(f64::INFINITY).total_cmp(&b.1.unwrap_or(f64::INFINITY)));
     list
+}
+
+/// The lines plan of a hull that the program carries, `NAME.png`.
+///
+/// # Errors
+/// Those of reading the hull, and [`Failure::Internal`] when it cannot be drawn.
+pub fn catalogue_picture(name: &str) -> Result<OutputFile, Failure> {
+    let source = read_source(&PathBuf::from(format!("{PREFIX}{name}")))?;
+    let (hull, conventions) = (&source.hull, &source.conventions);
+    let p = *hull.particulars();
+    let curves = CurvesOfForm::new(hull, &default_draughts(p.draught, p.depth), conventions);
+    let design = p.draught.and_then(|draught| CurvesOfForm::new(hull, &[draught], conventions).rows.pop());
+    let inputs = FigureInputs {
+        hull,
+        before: None,
+        record: None,
+        design: design.as_ref(),
+        curves: &curves,
+        source: None,
+        dense: None,
+    };
+    let drawn = figure_files(&inputs, &[Figure::Lines])?;
+    let picture = drawn.into_iter().find(|file| file.name.ends_with(".png"));
+    let missing = || Failure::Internal(format!("no picture of {name} was drawn"));
+    Ok(OutputFile { name: format!("{name}.png"), ..picture.ok_or_else(missing)? })
 }
 
 /// The list as a page; with distances where something is wanted.

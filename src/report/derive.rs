@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::compare::CompareOutputs;
-use super::derived_hull::{DerivedHull, input_file, refused, run_files, stated_targets};
+use super::derived_hull::{DerivedHull, input_file, refused, run_files, stability_is_whole, stated_targets};
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{Outputs, json_file};
@@ -12,13 +12,16 @@ use crate::config::{DeriveFile, Diagnostic, Severity, read_derive};
 use crate::derivation::{
     Derived, Dimensions, Method, Quantity, Reached, Request, WaveRequest, WaveResult, WaveTrade, derive,
 };
-use crate::exchange::{DeriveReport, DerivedTarget, TargetLine, WaveReport, derive_json};
+use crate::exchange::{CurveProblem, DeriveReport, DerivedTarget, TargetLine, WaveReport, derive_json, read_curve};
 use crate::hull::{Hull, SurfaceDistance, surface_distance};
 use crate::hydrostatics::Conventions;
 use crate::numeric::join;
-use crate::plot::Figure;
+use crate::plot::{Figure, TradePoint, trade_figure};
 use crate::resistance::Water;
+use crate::units::Notation;
 
+/// Resolution of the figure of the weights.
+const DOTS_PER_INCH: f64 = 150.0;
 /// Temperature of the water, on which R_W does not depend \[deg C\].
 const WATER_TEMPERATURE: f64 = 15.0;
 
@@ -55,6 +58,9 @@ pub struct DeriveOutputs {
     pub inflections: [usize; 2],
     /// How far the daughter is from the scaled parent.
     pub moved: Option<SurfaceDistance>,
+    /// GM and KG, where they are stated \[m\].
+    #[doc(hidden)]
+    pub stability: Option<[f64; 2]>,
     /// Warnings, each with its code.
     pub warnings: Vec<String>,
     /// What was assumed when the parent was read.
@@ -73,7 +79,9 @@ impl DeriveOutputs {
             targets: &self.targets,
             shift: derived.shift,
             shift_reach: derived.shift_reach,
-            program: (derived.energy, derived.gap, derived.binding, derived.programs),
+            program: (derived.energy, derived.gap, derived.programs),
+            limits: derived.binding.iter().map(|limits| (limits.kind, limits.count, limits.price)).collect(),
+            parallel_body: derived.parallel_body,
             inflections: self.inflections,
             moved: self.moved,
             waves: derived.waves.as_ref().map(wave_report),
@@ -102,7 +110,9 @@ pub fn read_derive_job(
         return Ok(DeriveJob { parent: path.to_owned(), file: None, overrides, wanted: options, intervals });
     }
     let file = read_derive(&path.display().to_string(), &text).map_err(Failure::Input)?;
-    let wanted = options.over(file);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let area_file = file.area_file.as_ref().map(|name| folder.join(name).display().to_string());
+    let wanted = options.over(DeriveFile { area_file, ..file });
     let Some(parent) = &wanted.parent else {
         let message = "derive.parent is missing: the hull, design or table to derive from".to_owned();
         return Err(Failure::Input(vec![problem(
@@ -116,7 +126,25 @@ pub fn read_derive_job(
     Ok(DeriveJob { parent, file: Some(path.to_owned()), overrides, wanted, intervals })
 }
 
+/// The job with the areas of the file that it names.
+fn with_areas(job: &DeriveJob) -> Result<DeriveJob, Failure> {
+    let mut job = job.clone();
+    let Some(path) = job.wanted.area_file.as_ref().map(PathBuf::from) else { return Ok(job) };
+    let curve = read_curve(&utf8(&path, read_bytes(&path)?)?, Notation::Metres).map_err(|problems| {
+        let of = |p: CurveProblem| Diagnostic { line: p.line, ..problem("E340", &path, p.message, p.remedy) };
+        Failure::Input(problems.into_iter().map(of).collect())
+    })?;
+    job.wanted.section_areas = curve.points.iter().filter_map(|p| Some([p.x, p.y?])).collect();
+    Ok(job)
+}
+
 impl DeriveJob {
+    /// The files that are read besides the parent.
+    #[must_use]
+    pub fn other_inputs(&self) -> Vec<PathBuf> {
+        self.file.clone().into_iter().chain(self.wanted.area_file.as_ref().map(PathBuf::from)).collect()
+    }
+
     fn request(&self, conventions: &Conventions) -> Request {
         let wanted = &self.wanted;
         let [length, breadth, draught, depth] = wanted.dimensions;
@@ -158,7 +186,7 @@ fn wave_report(waves: &WaveResult) -> WaveReport {
 fn target(reached: &Reached) -> DerivedTarget {
     let quantity = reached.target.quantity;
     DerivedTarget {
-        key: quantity.key(),
+        key: quantity.label(),
         unit: quantity.unit(),
         origin: reached.target.origin.as_str(),
         scaled: reached.before,
@@ -180,6 +208,8 @@ pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutpu
         let message = "--wave-weight and --within go with --wave-resistance, and no Froude numbers are given";
         return Err(Failure::Usage(message.to_owned()));
     }
+    stability_is_whole(&job.wanted)?;
+    let job = &with_areas(job)?;
     let source = read_source_with(&job.parent, &job.overrides)?;
     let Source { hull, conventions, notes, .. } = source;
     let parent = match job.wanted.parent_draught {
@@ -205,7 +235,9 @@ pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutpu
     let outputs = made.outputs(figures)?;
     let method = job.method();
     let inflections = derived.inflections;
-    Ok(DeriveOutputs { outputs, method, comparison, targets, inflections, moved, warnings, notes, derived })
+    let [gm, kg] = job.wanted.stability;
+    let stability = gm.zip(kg).map(|(gm, kg)| [gm, kg]);
+    Ok(DeriveOutputs { stability, outputs, method, comparison, targets, inflections, moved, warnings, notes, derived })
 }
 
 impl DeriveOutputs {
@@ -250,7 +282,7 @@ fn daughter_name(parent: &Hull) -> String {
 /// A target in the summary of a hull.
 pub(super) fn target_line(target: &DerivedTarget) -> TargetLine {
     TargetLine {
-        key: target.key,
+        key: target.key.clone(),
         requested: target.requested,
         achieved: target.achieved,
         error: target.achieved - target.requested,
@@ -265,6 +297,23 @@ pub(super) fn target_line(target: &DerivedTarget) -> TargetLine {
 /// drawn.
 pub fn derive_files(job: &DeriveJob, outputs: &DeriveOutputs, drawn: bool) -> Result<Vec<OutputFile>, Failure> {
     let record = json_file("derive.json", &derive_json(&outputs.report()))?;
-    let inputs: Vec<PathBuf> = [input_file(&job.parent)].into_iter().chain(job.file.clone()).collect();
-    run_files(&outputs.outputs, record, &outputs.comparison, &inputs, drawn)
+    let inputs: Vec<PathBuf> = [input_file(&job.parent)].into_iter().chain(job.other_inputs()).collect();
+    let mut records = vec![record];
+    if drawn {
+        records.extend(trade_files(outputs)?);
+    }
+    run_files(&outputs.outputs, records, &outputs.comparison, &inputs, drawn)
+}
+
+/// The figure of the weights of the wave resistance, as PNG and SVG, where several were solved.
+fn trade_files(outputs: &DeriveOutputs) -> Result<Vec<OutputFile>, Failure> {
+    let Some(waves) = &outputs.derived.waves else { return Ok(Vec::new()) };
+    let point = |t: &WaveTrade| TradePoint { weight: t.weight, ratio: t.ratio, energy: t.energy, moves: t.moves };
+    let points: Vec<TradePoint> = waves.trades.iter().map(point).collect();
+    let internal = |error: &dyn std::fmt::Display| Failure::Internal(format!("wave-trade: {error}"));
+    let figure = trade_figure(&outputs.outputs.summary.name, &points, waves.taken).map_err(|error| internal(&error))?;
+    let Some(figure) = figure else { return Ok(Vec::new()) };
+    let contents = figure.to_png(DOTS_PER_INCH).map_err(|error| internal(&error))?;
+    let svg = OutputFile::text("wave-trade.svg", figure.as_str().to_owned());
+    Ok(vec![OutputFile { name: "wave-trade.png".to_owned(), contents }, svg])
 }

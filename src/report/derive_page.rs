@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::compare_page::compare_page;
 use super::derive::DeriveOutputs;
 use super::page::{dimensions, fixed, wrapped};
-use crate::derivation::{Method, WaveResult};
+use crate::derivation::{BindingLimits, Method, WaveResult};
 use crate::exchange::DerivedTarget;
 use crate::resistance::THIN_SHIP_LIMITS;
 
@@ -14,6 +14,7 @@ pub(super) fn decimals(target: &DerivedTarget) -> usize {
     match target.unit {
         "-" => 5,
         "m3" | "m2" => 2,
+        "deg" => 3,
         _ => 4,
     }
 }
@@ -29,7 +30,7 @@ fn targets(page: &mut String, outputs: &DeriveOutputs) {
     }
     let _ = writeln!(
         page,
-        "{:<8}{:>12}{:>14}{:>14}{:>10}  {:<6}{:>11}",
+        "{:<10}{:>12}{:>13}{:>13}{:>10}  {:<6}{:>11}",
         "", "scaled", "requested", "achieved", "error", "origin", "price"
     );
     for target in &outputs.targets {
@@ -37,7 +38,7 @@ fn targets(page: &mut String, outputs: &DeriveOutputs) {
         let error = (target.achieved - target.requested) / target.requested.abs().max(1e-300);
         let _ = writeln!(
             page,
-            "{:<8}{:>12}{:>14}{:>14}{:>10}  {:<6}{:>11}",
+            "{:<10}{:>12}{:>13}{:>13}{:>10}  {:<6}{:>11}",
             target.key,
             write(target.scaled),
             write(target.requested),
@@ -54,6 +55,22 @@ fn targets(page: &mut String, outputs: &DeriveOutputs) {
         page.push_str(&wrapped(&line, 2));
     }
     page.push('\n');
+}
+
+/// Limits of one kind, with what the optimum changes by for a slack of 1 mm.
+fn binding(limits: &BindingLimits) -> String {
+    let words = match limits.kind {
+        "order" => "order of sections and waterlines",
+        "signs" => "signs of curvature",
+        "within" => "--within",
+        other => other,
+    };
+    let price = if limits.kind == "signs" {
+        format!("{:.1e} m2 per 1e-6/m", 1e-6 * limits.price)
+    } else {
+        format!("{:.1e} m2 per mm", 1e-3 * limits.price)
+    };
+    format!("{} of {words}, {price}", limits.count)
 }
 
 fn how(outputs: &DeriveOutputs) -> Vec<String> {
@@ -76,9 +93,16 @@ fn how(outputs: &DeriveOutputs) -> Vec<String> {
             "without signs of curvature"
         };
         lines.push(format!(
-            "Half-breadths change by least bending {signs}: energy {:.2e} m2, {} limits bind, duality gap {:.0e}. Prices are m2 per 1 % of a target.",
-            derived.energy, derived.binding, derived.gap
+            "Half-breadths change by least bending {signs}: energy {:.2e} m2, duality gap {:.0e} of the optimum. Prices are m2 per 1 % more of a target, of L_PP for LCB and LCF.",
+            derived.energy, derived.gap
         ));
+        if !derived.binding.is_empty() {
+            let list: Vec<String> = derived.binding.iter().map(binding).collect();
+            lines.push(format!("Limits that bind: {}.", list.join("; ")));
+        }
+        if let Some([aft, fore]) = derived.parallel_body {
+            lines.push(format!("Sections below T are alike from {aft:.3} to {fore:.3} m forward of AP."));
+        }
     }
     let [before, after] = outputs.inflections;
     lines.push(format!("Inflections of stations and waterlines, scaled parent > daughter: {before} > {after}."));
@@ -126,6 +150,10 @@ pub fn derive_page(outputs: &DeriveOutputs) -> String {
     page.push_str(&dimensions(outputs.derived.hull.particulars()));
     page.push('\n');
     targets(&mut page, outputs);
+    if let Some([gm, kg]) = outputs.stability {
+        let line = format!("GM {gm:.4} m with KG {kg:.4} m, without free surfaces: KM is their sum.");
+        page.push_str(&wrapped(&line, 2));
+    }
     how(outputs).iter().for_each(|line| page.push_str(&wrapped(line, 2)));
     page.push('\n');
     outputs.derived.waves.iter().for_each(|found| waves(&mut page, found));

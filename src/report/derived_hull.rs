@@ -22,7 +22,7 @@ use crate::plot::{Figure, FigureInputs};
 use crate::units::{Notation, decimal};
 
 /// Where the words of targets stand: options, and keys of the job file.
-const PLACES: [(&str, &str, &str); 22] = [
+const PLACES: [(&str, &str, &str); 26] = [
     ("wave-resistance", "--wave-resistance", "wave_resistance"),
     ("cb", "--cb", "Cb"),
     ("displacement", "--displacement", "displacement"),
@@ -33,7 +33,11 @@ const PLACES: [(&str, &str, &str); 22] = [
     ("lcf", "--lcf", "LCF"),
     ("kb", "--kb", "KB"),
     ("km", "--km", "KM"),
+    ("gm", "--gm", "GM"),
     ("wetted-surface", "--wetted-surface", "wetted_surface"),
+    ("entrance", "--entrance", "entrance"),
+    ("run", "--run", "run"),
+    ("section-areas", "--section-areas", "section_areas"),
     ("depth", "--depth", "D"),
     ("draught", "--parent-draught", "parent_draught"),
     ("method", "--method", "method"),
@@ -52,7 +56,11 @@ pub(super) fn refused(refusals: Vec<Refusal>, wanted: &DeriveFile, job_file: Opt
     let infeasible = refusals.iter().all(|refusal| refusal.code == "E420");
     let shown = |word: &str| {
         let stated_block = word == "displacement" && wanted.coefficients[0].is_some();
-        let word = if stated_block { "cb" } else { word };
+        let word = match word {
+            _ if stated_block => "cb",
+            "km" if wanted.stability[0].is_some() => "gm",
+            word => word,
+        };
         PLACES.iter().find(|place| place.0 == word).map_or((COMMAND_LINE, "parent"), |place| (place.1, place.2))
     };
     let message = |refusal: Refusal| {
@@ -76,10 +84,26 @@ pub(super) fn stated_targets(wanted: &DeriveFile, density: f64) -> Vec<(Quantity
         (Quantity::MidshipCoefficient, midship),
         (Quantity::WaterplaneCoefficient, waterplane),
         (Quantity::Kb, wanted.heights[0]),
-        (Quantity::Km, wanted.heights[1]),
+        (Quantity::Km, wanted.heights[1].or_else(|| Some(wanted.stability[0]? + wanted.stability[1]?))),
         (Quantity::WettedSurface, wanted.wetted_surface),
+        (Quantity::HalfAngleOfEntrance, wanted.angles[0]),
+        (Quantity::HalfAngleOfRun, wanted.angles[1]),
     ];
-    targets.into_iter().filter_map(|(quantity, value)| Some((quantity, value?))).collect()
+    let areas = wanted.section_areas.iter().map(|&[x, area]| (Quantity::SectionArea { x }, area));
+    targets.into_iter().filter_map(|(quantity, value)| Some((quantity, value?))).chain(areas).collect()
+}
+
+/// That GM and KG are stated together.
+///
+/// # Errors
+/// [`Failure::Usage`] where one of them is alone.
+pub(super) fn stability_is_whole(wanted: &DeriveFile) -> Result<(), Failure> {
+    let message = match wanted.stability {
+        [Some(_), None] => "--gm goes with --kg, the height of the centre of gravity: KM = KG + GM",
+        [None, Some(_)] => "--kg goes with --gm: KG alone is no property of the hull",
+        _ => return Ok(()),
+    };
+    Err(Failure::Usage(message.to_owned()))
 }
 
 /// A hull that is made from others, with what its files state of it.
@@ -183,17 +207,17 @@ pub(super) fn input_file(path: &Path) -> PathBuf {
     if path.is_dir() { path.join("hull.json") } else { path.to_owned() }
 }
 
-/// The files of a run: those of the hull, the record of how it was made, the comparison, `report.md` and the manifest.
+/// The files of a run: those of the hull, the records of how it was made, the comparison, `report.md` and the manifest.
 /// `inputs` are the files that were read, the first of which is the source.
 pub(super) fn run_files(
     outputs: &Outputs,
-    record: OutputFile,
+    records: Vec<OutputFile>,
     comparison: &CompareOutputs,
     inputs: &[PathBuf],
     drawn: bool,
 ) -> Result<Vec<OutputFile>, Failure> {
     let mut made = outputs.clone();
-    made.files.push(record);
+    made.files.extend(records);
     made.files.extend(comparison_files(comparison, drawn)?);
     made.files.sort_by(|a, b| a.name.cmp(&b.name));
     made.files.push(OutputFile::text("report.md", markdown_page(&made, &[], &[])));

@@ -99,7 +99,7 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
             .targets
             .iter()
             .map(|t| TargetLine {
-                key: t.key,
+                key: t.key.to_owned(),
                 requested: t.requested,
                 achieved: t.achieved,
                 error: t.achieved - t.requested,

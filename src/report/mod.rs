@@ -47,11 +47,11 @@ mod staging;
 mod validate;
 mod verdict;
 
-pub use blend::{BlendJob, BlendOutputs, blend_files, blend_outputs};
+pub use blend::{BlendJob, BlendOutputs, HULL_KEYS, OfHull, blend_files, blend_outputs};
 pub use blend_page::blend_page;
 pub use catalogue::{
-    CatalogueEntry, WANTED, catalogue, catalogue_file, catalogue_json, catalogue_names, catalogue_page, index_csv,
-    ranked,
+    CatalogueEntry, WANTED, catalogue, catalogue_file, catalogue_json, catalogue_names, catalogue_page,
+    catalogue_picture, index_csv, ranked,
 };
 pub use check::{
     Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table, check_table_with,

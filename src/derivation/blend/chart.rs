@@ -25,6 +25,8 @@ const MOST: [usize; 2] = [220, 160];
 const SAME_KNOT: f64 = 1e-5;
 /// Differences of a height along the ship that are rounding, in parts of the height of the hull.
 const ROUNDING: f64 = 1e-11;
+/// Points of a span in each direction on which the distance of a refit is reported; of trials one.
+const MEASURED: usize = 3;
 /// Spans by which the deck at side is refitted.
 const DECK_SPANS: usize = 32;
 
@@ -93,7 +95,23 @@ pub(super) fn on_one_chart(hulls: &[Hull], draught: f64) -> Result<OneChart, Ref
             _ => break,
         }
     }
+    best.errors =
+        measured(hulls, &best, draught).map_err(|(which, unlike)| refused(hulls, which, best.base, &unlike))?;
     Ok(best)
+}
+
+/// The largest distances, on the points that are reported.
+fn measured(hulls: &[Hull], found: &OneChart, draught: f64) -> Result<Vec<f64>, (usize, Unlike)> {
+    let base = on_unit_square(&hulls[found.base]).map_err(|error| (found.base, error))?;
+    let of = |(k, hull): (usize, &Hull)| {
+        if k == found.base {
+            return Ok(0.0);
+        }
+        let hull = on_unit_square(hull).map_err(|error| (k, error))?;
+        let bend = Bend::new(&base, &hull, draught).ok_or((k, Unlike::Outside([0.0, draught])))?;
+        Ok(bend.error(found.hulls[k].surface(), MEASURED))
+    };
+    hulls.iter().enumerate().map(of).collect()
 }
 
 fn worst(found: &OneChart) -> f64 {
@@ -432,7 +450,7 @@ impl<'a> Bend<'a> {
         let net = change.points().iter().zip(surface.points()).enumerate().map(of).collect();
         let [u, v] = knots;
         let net = BsplineSurface::new(u, v, net)?;
-        let error = self.error(&net);
+        let error = self.error(&net, 1);
         Ok((net, error))
     }
 
@@ -448,17 +466,24 @@ impl<'a> Bend<'a> {
         (0..columns).map(of).collect()
     }
 
-    /// Largest distance of `net` from the other hull in the middles of its cells, normal to it, and of their profiles \[m\].
-    fn error(&self, net: &BsplineSurface<3>) -> f64 {
-        let middles =
-            |knots: &KnotVector| -> Vec<f64> { knots.breakpoints().windows(2).map(|w| 0.5 * (w[0] + w[1])).collect() };
+    /// Largest distance of `net` from the other hull, normal to it, and of their profiles \[m\], on `parts` points of a span in each
+    /// direction: the middles of its parts. Points beside the profile count with their distance from it.
+    fn error(&self, net: &BsplineSurface<3>, parts: usize) -> f64 {
+        let middles = |knots: &KnotVector| -> Vec<f64> {
+            let part = |k: usize| (k as f64 + 0.5) / parts as f64;
+            let inside = |w: &[f64]| (0..parts).map(|k| w[0] + (w[1] - w[0]) * part(k)).collect::<Vec<f64>>();
+            knots.breakpoints().windows(2).flat_map(inside).collect()
+        };
         let [us, vs] = [middles(net.u()), middles(net.v())];
         let mut worst: f64 = 0.0;
         for u in &us {
             for v in &vs {
-                let [x, y, z] = net.eval(*u, *v);
-                // Beside the profile it is the profile that counts.
-                let Some([a, b]) = self.other.parameters(x, z) else { continue };
+                let point = net.eval(*u, *v);
+                let [x, y, z] = point;
+                let Some([a, b]) = self.other.parameters(x, z) else {
+                    worst = worst.max(self.beside(point));
+                    continue;
+                };
                 let at = self.other.surface().tangents(a, b);
                 let normal = cross(at.du, at.dv);
                 let size = dot(normal, normal).sqrt();
@@ -477,5 +502,20 @@ impl<'a> Bend<'a> {
             Some((self.other.surface().eval(at, edge)[2] - z).abs())
         });
         ends.chain(edges).fold(worst, f64::max)
+    }
+
+    /// How far a point outside of the profile of the other hull is from it: along its waterline, up or down, or to a corner.
+    fn beside(&self, [x, y, z]: [f64; 3]) -> f64 {
+        let surface = self.other.surface();
+        let along = [0.0, 1.0].map(|end| Some([end, self.other.height_parameter_at(end, z)?]));
+        let up = [0.0, 1.0].map(|edge| Some([self.other.length_parameter(x, edge)?, edge]));
+        let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]].map(Some);
+        let places = along.into_iter().chain(up).chain(corners).flatten();
+        let distance = |[u, v]: [f64; 2]| {
+            let [a, b, c] = surface.eval(u, v);
+            // Transom, bottom and deck close the other hull from its profile to the centreplane.
+            (x - a).hypot((y - b).max(0.0)).hypot(z - c)
+        };
+        places.map(distance).fold(f64::INFINITY, f64::min)
     }
 }

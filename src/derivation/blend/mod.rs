@@ -13,7 +13,7 @@ use super::inflections::{counted_planes, inflections};
 use super::limits::Interval;
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
-use super::request::{Dimensions, Request, Target, impossible};
+use super::request::{Dimensions, Request, Target, impossible, undefined};
 use crate::hull::Hull;
 use crate::hydrostatics::Conventions;
 use weights::{Blending, Failed, Mix};
@@ -127,7 +127,7 @@ pub fn blend(
     let draught = parents[0].particulars().draught.unwrap_or_default();
     let one = chart::on_one_chart(&parents, draught).map_err(|refusal| vec![refusal])?;
     let blending = Blending { hulls: &one.hulls, request: &wanted, free: &request.free, conventions, quantities };
-    blending.possible(&parents[0])?;
+    blending.possible(&parents)?;
     let mix = match &request.weights {
         Some(weights) => Ok(Mix { weights: weights.clone(), changes: Vec::new() }),
         None => blending.solve(),
@@ -283,8 +283,12 @@ fn is_linear(hulls: &[Hull], draught: f64) -> bool {
 
 impl Blending<'_> {
     /// Values that no ship of these dimensions has.
-    fn possible(&self, hull: &Hull) -> Result<(), Vec<Refusal>> {
-        let Some((reference, targets)) = self.targets(hull) else { return Err(vec![Refusal::no_draught()]) };
+    fn possible(&self, hulls: &[Hull]) -> Result<(), Vec<Refusal>> {
+        let Some((reference, targets)) = self.targets(&hulls[0]) else { return Err(vec![Refusal::no_draught()]) };
+        let of_hull = |hull: &Hull| targets.iter().find_map(|target| undefined(target, hull, &reference));
+        if let Some(refusal) = hulls.iter().find_map(of_hull) {
+            return Err(vec![refusal]);
+        }
         if !self.free.is_empty() {
             // They are values of other dimensions than these.
             return Ok(());

@@ -16,6 +16,10 @@ use crate::spline::{BsplineCurve, KnotVector, MAX_DEGREE};
 const FUNCTIONS: usize = MAX_DEGREE + 1;
 /// Terms of series that are dropped, beside values of 1.
 const TOLERANCE: f64 = 1e-12;
+/// What decays by this power is left out: 3e-20.
+const DEEPEST: f64 = 45.0;
+/// Steps along the ship that differ by less than this part are one.
+const SAME_STEP: f64 = 1e-12;
 
 /// The panels of one axis; with each the index of the first basis function.
 #[derive(Debug, Clone)]
@@ -63,13 +67,14 @@ impl Axis {
     /// G_i at wave number `k`; a flat bow falls to the centreplane at x = `fore`.
     pub(super) fn wave(&self, k: f64, fore: f64, values: &mut NetValues) {
         let mut moments = Moments::default();
+        let mut phases = Phases::default();
         for list in [&mut values.real, &mut values.imaginary] {
             list.clear();
             list.resize(self.count, 0.0);
         }
         for (first, panel) in &self.panels {
             let of_wave = *moments.of_wave(k, panel.half);
-            let (sine, cosine) = (k * panel.middle).sin_cos();
+            let [cosine, sine] = phases.at(k, panel.middle);
             let ends = *first..*first + self.functions;
             let targets = values.real[ends.clone()].iter_mut().zip(&mut values.imaginary[ends]);
             for ((real, imaginary), series) in targets.zip(&panel.series) {
@@ -82,6 +87,44 @@ impl Axis {
         values.real[self.count - 1] -= cosine;
         values.imaginary[self.count - 1] -= sine;
     }
+}
+
+/// e^{ikx} at rising x: where steps are equal, products of one factor.
+#[derive(Default)]
+struct Phases {
+    x: f64,
+    step: f64,
+    here: [f64; 2],
+    factor: [f64; 2],
+}
+
+impl Phases {
+    fn at(&mut self, k: f64, x: f64) -> [f64; 2] {
+        let of = |x: f64| {
+            let (sine, cosine) = (k * x).sin_cos();
+            [cosine, sine]
+        };
+        let step = x - self.x;
+        if (step - self.step).abs() <= SAME_STEP * step.abs() {
+            let ([a, b], [c, d]) = (self.here, self.factor);
+            self.here = [a * c - b * d, a * d + b * c];
+        } else {
+            (self.here, self.factor, self.step) = (of(x), of(step), step);
+        }
+        self.x = x;
+        self.here
+    }
+}
+
+/// The sum of products, in four sums that do not wait for each other.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let (fours, rest) = (a.chunks_exact(4), a.chunks_exact(4).remainder());
+    let mut sums = [0.0; 4];
+    for (a, b) in fours.zip(b.chunks_exact(4)) {
+        sums.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (a, b))| *sum += a * b);
+    }
+    let last = b.chunks_exact(4).remainder();
+    sums.iter().sum::<f64>() + rest.iter().zip(last).map(|(a, b)| a * b).sum::<f64>()
 }
 
 /// A hull whose chart is a rectangle, and the part of it below a waterline.
@@ -105,6 +148,8 @@ pub(super) struct NetValues {
     pub(super) imaginary: Vec<f64>,
     /// H_j.
     heights: Vec<f64>,
+    /// The first of them that does not vanish.
+    lowest: usize,
 }
 
 impl NetKochin {
@@ -141,10 +186,11 @@ impl NetKochin {
         self.along_values(k, values);
         self.up_values(q, values);
         let mut sums = [0.0; 2];
+        let lowest = values.lowest;
         for (row, (real, imaginary)) in
             self.breadths.chunks_exact(self.up.count).zip(values.real.iter().zip(&values.imaginary))
         {
-            let breadth: f64 = row.iter().zip(&values.heights).map(|(c, h)| c * h).sum();
+            let breadth = product(&row[lowest..], &values.heights[lowest..]);
             sums[0] += real * breadth;
             sums[1] += imaginary * breadth;
         }
@@ -183,12 +229,14 @@ impl NetKochin {
         let mut moments = Moments::default();
         values.heights.clear();
         values.heights.resize(self.up.count, 0.0);
+        values.lowest = self.up.count;
         for (first, panel) in &self.up.panels {
-            let depth = self.draught - panel.middle - panel.half;
-            let factor = panel.half * (-q * depth.max(0.0)).exp();
-            if factor < f64::MIN_POSITIVE {
+            let decay = q * (self.draught - panel.middle - panel.half).max(0.0);
+            if decay > DEEPEST {
                 continue;
             }
+            values.lowest = values.lowest.min(*first);
+            let factor = panel.half * (-decay).exp();
             let of_decay = moments.of_decay(q, panel.half);
             let targets = values.heights[*first..*first + self.up.functions].iter_mut();
             for (height, series) in targets.zip(&panel.series) {
