@@ -60,8 +60,8 @@ pub struct BindingLimits {
     pub kind: &'static str,
     /// How many of them bind.
     pub count: usize,
-    /// Derivative of the optimum by a slack that all of them get: at most 0, since limits that widen cost nothing. [m] where
-    /// the slack is one of half-breadths, [m^3] where it is one of curvatures.
+    /// Derivative of the optimum by a slack that all of them get: at most 0, since limits that widen cost nothing. \[m\] where
+    /// the slack is one of half-breadths, \[m^3\] where it is one of curvatures.
     pub price: f64,
 }
 

@@ -17,11 +17,11 @@ const CHORD: Pen = Pen::new(0.25, "#7a7a7a").dashed(&[4.0, 1.5]);
 /// One weight of the wave resistance with what it comes to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TradePoint {
-    /// The weight [m^2].
+    /// The weight \[m^2\].
     pub weight: f64,
     /// Mean of R_W over that of the scaled parent.
     pub ratio: f64,
-    /// Bending of the change [m^2].
+    /// Bending of the change \[m^2\].
     pub energy: f64,
     /// Root of the mean square of the moves \[m\].
     pub moves: f64,
