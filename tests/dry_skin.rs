@@ -81,6 +81,38 @@ fn the_inner_skin_of_a_hollow_box_is_left_out() {
     }
 }
 
+/// A ring of triangles between two squares about (20, 0), of half sides and heights.
+fn ring([low, high]: [(f64, f64); 2]) -> Vec<Triangle> {
+    let square = |(half, z): (f64, f64)| -> [Point; 4] {
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[a, b]| [20.0 + half * a, half * b, z])
+    };
+    let (from, to) = (square(low), square(high));
+    let side = |k: usize| {
+        let n = (k + 1) % 4;
+        [[from[k], from[n], to[n]], [from[k], to[n], to[k]]]
+    };
+    (0..4).flat_map(side).collect()
+}
+
+/// A box with a pool through it that is narrower than a cell of the search at the keel.
+fn pool() -> Vec<Triangle> {
+    let walls = open_box(OUTER).into_iter().filter(|t| t.iter().any(|p| p[2] > 0.0));
+    let plate = |z: f64, half: f64| {
+        let (high, low) = ((20.0 - half, 4.0 - half), (20.0 + half, half));
+        let part = |x: f64, y: f64, l: f64, b: f64| grid([x, y, z], [l, 0.0, 0.0], [0.0, b, 0.0], [1, 1]);
+        [
+            part(0.0, -4.0, high.0, 8.0),
+            part(low.0, -4.0, high.0, 8.0),
+            part(high.0, -4.0, 2.0 * half, high.1),
+            part(high.0, low.1, 2.0 * half, high.1),
+        ]
+        .concat()
+    };
+    let well =
+        [ring([(0.1, 0.0), (0.1, 0.5)]), ring([(0.1, 0.5), (2.0, 0.5)]), ring([(2.0, 0.5), (2.0, 4.0)])].concat();
+    walls.chain(plate(0.0, 0.1)).chain(plate(4.0, 2.0)).chain(well).collect()
+}
+
 #[test]
 fn bodies_without_dry_skin_stay_as_they_are() {
     let demihulls = [[[0.0, 2.0, 0.0], [20.0, 4.0, 4.0]], [[0.0, -4.0, 0.0], [20.0, -2.0, 4.0]]];
@@ -89,7 +121,10 @@ fn bodies_without_dry_skin_stay_as_they_are() {
     // A deck well below its bulwarks, of which the upper edges are open.
     let bulwarks = open_box([[0.0, -4.0, 4.0], [40.0, 4.0, 4.5]]).into_iter().filter(|t| t.iter().any(|p| p[2] > 4.1));
     let sunk: Vec<Triangle> = closed.iter().copied().chain(bulwarks).collect();
-    for (name, parts) in [("two hulls", two), ("no deck", open_box(OUTER)), ("closed", closed), ("bulwarks", sunk)] {
+    let well = pool();
+    for (name, parts) in
+        [("two hulls", two), ("no deck", open_box(OUTER)), ("closed", closed), ("bulwarks", sunk), ("moonpool", well)]
+    {
         let body = mesh(parts);
         let (left, found) = body.clone().without_dry_skin();
         assert!(found == DrySkin::default() && left == body, "{name}: {found:?}");

@@ -10,9 +10,9 @@ pub(super) fn to_decimals(value: f64, decimals: usize) -> f64 {
     (value * unit).round() / unit
 }
 
-/// The number, or null.
+/// The number, or null; a negative zero is zero.
 pub(super) fn json_number(value: Option<f64>) -> Value {
-    value.and_then(serde_json::Number::from_f64).map_or(Value::Null, Value::Number)
+    value.and_then(|value| serde_json::Number::from_f64(value + 0.0)).map_or(Value::Null, Value::Number)
 }
 
 /// The number, or an empty cell; a negative zero is zero.
@@ -48,6 +48,7 @@ mod tests {
         assert_eq!(cell(Some(-0.0)), "0");
         assert_eq!(cell(Some(0.1)), "0.1");
         assert_eq!(json_number(Some(f64::INFINITY)), Value::Null);
+        assert_eq!(json_number(Some(-0.0)).to_string(), "0.0");
         assert_eq!(line(&["=a,b".into(), "-1.5".into(), "-".into()]), "\"'=a,b\",-1.5,-\n");
         assert_eq!(line(&["a,b".into(), "c\"d".into(), "e".into()]), "\"a,b\",\"c\"\"d\",e\n");
     }

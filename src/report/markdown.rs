@@ -48,10 +48,12 @@ fn write_page(
     if !summary.remarks.is_empty() {
         writeln!(page)?;
     }
-    for file in &outputs.files {
-        if file.name.ends_with(".png") || file.name.ends_with(".svg") {
-            writeln!(page, "![{}]({})\n", file.name, file.name)?;
-        }
+    // Each picture once: as PNG where it is one.
+    let stems = |ending: &'static str| outputs.files.iter().filter_map(move |file| file.name.strip_suffix(ending));
+    let drawn = stems(".svg").filter(|stem| !stems(".png").any(|other| other == *stem));
+    let pictures = stems(".png").map(|stem| (stem, "png")).chain(drawn.map(|stem| (stem, "svg")));
+    for (stem, ending) in pictures {
+        writeln!(page, "![{}]({stem}.{ending})\n", stem.replace('-', " "))?;
     }
     writeln!(page, "## At the design draught\n\n{}\n", conventions_line(&outputs.table.conventions))?;
     writeln!(page, "| | | value | unit |\n|---|---|---|---|")?;

@@ -1,7 +1,6 @@
 //! Chart, metric and weight of greatest likelihood.
 //!
-//! Coordinate descent over grids of the numbers of chart and metric. Places of a grid are compared with the weight that leaves
-//! the energy of the field beside them; the best one gets its best weight.
+//! Coordinate descent over grids of the numbers of chart and metric, each with its best weight.
 
 use super::chart::{Chart, Shape};
 use super::density::Density;
@@ -176,7 +175,7 @@ impl Chosen {
         rival: f64,
     ) -> Option<Self> {
         let (found, trials) = weighed(observed, rough, start, least, rival);
-        let (exponent, field) = found?;
+        let Weighed::Best(exponent, field) = found else { return None };
         Some(Self { exponent, field, trials: self.trials + trials, ..self.clone() })
     }
 }
@@ -186,10 +185,9 @@ struct Search<'a, 'n> {
     readings: &'a Readings,
     rectangle: Chart,
     least: f64,
-    /// The offsets on the chart that was looked at last.
-    observed: Option<(Shape, Observed)>,
-    /// Decimal logarithms of weights, with their fields.
     known: BTreeMap<[usize; 5], (f64, Smoothed)>,
+    /// Costs that places without a known one have at least.
+    bounds: BTreeMap<[usize; 5], f64>,
     trials: usize,
 }
 
@@ -206,42 +204,30 @@ impl Search<'_, '_> {
         Chart { shape: Self::shape(at), ..self.rectangle }
     }
 
-    /// The offsets on the chart of a place, and the energy there.
-    fn system(&mut self, at: [usize; 5]) -> Option<(&Observed, &Roughness)> {
-        let shape = Self::shape(at);
-        let observed = match self.observed.take() {
-            Some(last) if last.0 == shape => last,
-            _ => (shape, Observed::new(self.energies.net, &self.chart(at), self.readings)),
-        };
-        let (_, observed) = self.observed.insert(observed);
-        Some((observed, self.energies.of(Self::metric(at)).ok()?))
-    }
-
-    /// Cost of a place with the weight of which this is the decimal logarithm, or with the one with which it is known.
-    fn cost(&mut self, at: [usize; 5], exponent: f64) -> f64 {
+    /// Cost of a chart with its best weight, looked for from `start` on; a lower bound that is above `rival` where it is
+    /// not below that.
+    fn cost(&mut self, at: [usize; 5], start: f64, rival: f64) -> f64 {
         if let Some((_, known)) = self.known.get(&at) {
             return known.cost;
         }
-        let least = self.least;
-        self.trials += 1;
-        let system = self.system(at);
-        let found = system.and_then(|(observed, rough)| smoothed(observed, rough, 10f64.powf(exponent), least).ok());
-        let Some(found) = found else { return f64::INFINITY };
-        let cost = found.cost;
-        self.known.insert(at, (exponent, found));
-        cost
-    }
-
-    /// Cost of a place with its best weight, looked for from `start` on.
-    fn least_cost(&mut self, at: [usize; 5], start: f64) -> Option<f64> {
-        let least = self.least;
-        let (observed, rough) = self.system(at)?;
-        let (found, trials) = weighed(observed, rough, start, least, f64::INFINITY);
+        if let Some(bound) = self.bounds.get(&at).filter(|bound| **bound > rival) {
+            return *bound;
+        }
+        let observed = Observed::new(self.energies.net, &self.chart(at), self.readings);
+        let Ok(rough) = self.energies.of(Self::metric(at)) else { return f64::INFINITY };
+        let (found, trials) = weighed(&observed, rough, start, self.least, rival);
         self.trials += trials;
-        let (exponent, field) = found?;
-        let cost = field.cost;
-        self.known.insert(at, (exponent, field));
-        Some(cost)
+        match found {
+            Weighed::Best(exponent, found) => {
+                let cost = found.cost;
+                self.known.insert(at, (exponent, found));
+                cost
+            }
+            Weighed::AtLeast(bound) => {
+                self.bounds.insert(at, bound);
+                bound
+            }
+        }
     }
 
     /// The exponent with which the field of a place has the same energy in another metric.
@@ -257,11 +243,10 @@ impl Search<'_, '_> {
     }
 
     /// The chart at which no single number is better, from a start on; each within `beside` steps of its grid. On a grid the
-    /// places to each side are tried as far as cost does not rise by [`RISE`], each with the weight that leaves the energy
-    /// of the field beside it. The best of a grid gets its best weight.
+    /// places to each side are tried as far as cost does not rise by [`RISE`].
     fn descent(&mut self, mut at: [usize; 5], beside: usize, start: f64) -> Option<[usize; 5]> {
         let rise = RISE[0] + RISE[1] * self.readings.cells.len() as f64;
-        let mut best = self.least_cost(at, start)?;
+        let mut best = self.cost(at, start, f64::INFINITY);
         for _ in 0..ROUNDS {
             let before = at;
             for k in [1, 4, 0, 2, 3] {
@@ -274,7 +259,7 @@ impl Search<'_, '_> {
                     for q in side {
                         let mut place = centre;
                         place[k] = q;
-                        let cost = self.cost(place, self.exponent(from, place)?);
+                        let cost = self.cost(place, self.exponent(from, place)?, best);
                         if cost < best {
                             (best, at) = (cost, place);
                         }
@@ -286,30 +271,29 @@ impl Search<'_, '_> {
                         }
                     }
                 }
-                if at != centre {
-                    best = self.least_cost(at, self.known[&at].0)?;
-                }
             }
             if at == before {
                 break;
             }
         }
-        Some(at)
+        (best < f64::INFINITY).then_some(at)
     }
 }
 
-/// The decimal logarithm of the weight of greatest likelihood with its field, and how many were tried; no field where the
-/// search ended early. It is the least of three neighbours on the grid of steps of a quarter decade. It is bracketed from
-/// `start` on with steps that double, then found by parabolas (Brent 1973, chapter 5). The search ends early where the best
-/// weight costs more than `rival`. For that -2 log l of n offsets is taken to fall by [`FALL`] at most, and by [`SLACK`] +
-/// s^2 / (4 k n) where it changes by s between two weights, with the curvature k of [`CURVATURE`].
-fn weighed(
-    observed: &Observed,
-    rough: &Roughness,
-    start: f64,
-    least: f64,
-    rival: f64,
-) -> (Option<(f64, Smoothed)>, usize) {
+/// The field of the best weight.
+enum Weighed {
+    /// The decimal logarithm of the weight, and the field.
+    Best(f64, Smoothed),
+    /// A lower bound of its cost, that is above that of the rival.
+    AtLeast(f64),
+}
+
+/// The weight of greatest likelihood with its field, and how many were tried: the least of three neighbours on the grid of
+/// steps of a quarter decade. It is bracketed from `start` on with steps that double, then found by parabolas (Brent 1973,
+/// chapter 5). The search ends early where the best weight costs more than `rival`. For that -2 log l of n offsets is taken
+/// to fall by [`FALL`] at most, and by [`SLACK`] + s^2 / (4 k n) where it changes by s between two weights, with the
+/// curvature k of [`CURVATURE`].
+fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64, rival: f64) -> (Weighed, usize) {
     // Costs, and what the offsets alone cost.
     let mut costs: BTreeMap<i32, [f64; 2]> = BTreeMap::new();
     let mut best: Option<(f64, Smoothed)> = None;
@@ -334,12 +318,12 @@ fn weighed(
     let count = observed.count() as f64;
     let bound = first - FALL[0] - FALL[1] * count;
     if first.is_infinite() || bound > rival {
-        return (None, 1);
+        return (Weighed::AtLeast(bound), 1);
     }
     let [_, second] = both(middle + 1, &mut best);
     let bound = first.min(second) - SLACK - (second - first).powi(2) / (4.0 * CURVATURE * count);
     if bound > rival {
-        return (None, 2);
+        return (Weighed::AtLeast(bound), 2);
     }
     let mut cost = |place: i32, best: &mut Option<(f64, Smoothed)>| both(place, best)[0];
     // Places beside the middle at which it is higher.
@@ -373,7 +357,8 @@ fn weighed(
             (false, false) => high = next,
         }
     }
-    (best, costs.len())
+    let found = best.map_or(Weighed::AtLeast(f64::INFINITY), |(exponent, field)| Weighed::Best(exponent, field));
+    (found, costs.len())
 }
 
 /// The chart of greatest likelihood over a rectangle; the noise is at least `least` \[m\]. With an earlier choice only charts
@@ -386,7 +371,8 @@ pub fn choose(
     least: f64,
     earlier: Option<&Chosen>,
 ) -> Option<Chosen> {
-    let mut search = Search { energies, readings, rectangle, least, observed: None, known: BTreeMap::new(), trials: 0 };
+    let (known, bounds) = (BTreeMap::new(), BTreeMap::new());
+    let mut search = Search { energies, readings, rectangle, least, known, bounds, trials: 0 };
     let exponent = earlier.map_or(FIRST, |earlier| earlier.exponent);
     let beside = if earlier.is_some() { 1 } else { usize::MAX };
     let first = search.descent(earlier.map_or(START, place), beside, exponent)?;

@@ -10,9 +10,14 @@
 //! water on one side. A part without any is a sheet inside. A part that has water here and a deep basin there is the outer and the
 //! inner skin of a hollow body; what faces the basin is left out. Where plates are nearer to each other than two
 //! cells, triangles are as those beside them.
+//!
+//! A cell shuts openings that are narrower than itself: a moonpool or the slot of a centreboard looks like a basin. The well of a
+//! dock is one until water comes over its sill. So an inner skin is left out where the body is one of plates alone: without it
+//! the body encloses [`HOLLOW`] times as much.
 
 use super::TriangleMesh;
 use crate::spline::{cross, dot, length, minus};
+use std::cell::Cell as Counter;
 use std::collections::HashSet;
 
 /// Cells along each axis of the body; one more at each end.
@@ -34,6 +39,12 @@ const SMOOTH: f64 = 0.7;
 
 /// A basin of a hollow body is at least so many cells deep.
 const DEEP: usize = CELLS / 4;
+
+/// What a body of plates encloses without its inner skin, at least, over what it does with it.
+const HOLLOW: f64 = 3.0;
+
+/// Most triangles that are looked at beside others. A body with more of them in its cells stays as it is.
+const MOST: u64 = 300_000_000;
 
 /// Triangles nearer than this to a middle are hit by no ray from there, in cells.
 const NEAR: f64 = 1e-6;
@@ -96,6 +107,8 @@ struct Cells {
     /// Triangles by the cells that they pass through or near, and where in this list those of a cell begin.
     walls: Vec<u32>,
     firsts: Vec<usize>,
+    /// Triangles that were looked at beside others.
+    work: Counter<u64>,
 }
 
 fn cell(point: Point) -> Option<usize> {
@@ -143,7 +156,7 @@ impl Cells {
                 }
             });
         }
-        Some(Self { triangles, levels, walls: Vec::new(), firsts: Vec::new() })
+        Some(Self { triangles, levels, walls: Vec::new(), firsts: Vec::new(), work: Counter::new(0) })
     }
 
     /// The cell of a point of the body, of which none is beside it.
@@ -221,6 +234,10 @@ impl Cells {
         for step in 1..=REACH {
             let t = STRIDE * step as f64;
             let Some(at) = cell([0, 1, 2].map(|k| from[k] + t * along[k])) else { return Side::Water };
+            self.work.set(self.work.get() + (self.firsts[at + 1] - self.firsts[at]) as u64);
+            if self.work.get() > MOST {
+                break;
+            }
             let others = self.in_cell(at).filter(|k| *k != own);
             hit = others.filter_map(|k| met(self.triangles[k], from, along)).fold(hit, f64::min);
             match self.levels[at] {
@@ -283,24 +300,28 @@ impl TriangleMesh {
         }
         cells.list();
         let mut kinds: Vec<Kind> = (0..self.triangles.len()).map(|k| cells.kind(k)).collect();
+        if cells.work.get() > MOST {
+            return (self, found);
+        }
         self.spread(&mut kinds, SMOOTH);
         self.spread(&mut kinds, -1.0);
-        let mut left_out = vec![false; kinds.len()];
+        let (mut left_out, mut inner) = (vec![false; kinds.len()], Vec::new());
         let depth = |k: usize| if let Kind::Dry(depth) = kinds[k] { Some(depth) } else { None };
         for shell in self.shells() {
             let dry: Vec<(usize, usize)> = shell.iter().filter_map(|&k| Some((k, depth(k)?))).collect();
             let deepest = dry.iter().map(|(_, depth)| *depth).max().unwrap_or(0);
             if dry.len() < shell.len() {
                 let facing = dry.iter().filter(|(_, depth)| deepest >= DEEP && *depth > 0);
-                facing.for_each(|(k, _)| {
-                    left_out[*k] = true;
-                    found.inner += 1;
-                });
+                inner.extend(facing.map(|(k, _)| *k));
             } else if (deepest == 0 || deepest >= DEEP) && self.is_joined(&shell, &branches) {
                 // What shares no edge with the skin is a tank, or a loose sheet.
                 shell.iter().for_each(|&k| left_out[k] = true);
                 found.sheets += shell.len();
             }
+        }
+        if self.is_inner_skin(&inner) {
+            inner.iter().for_each(|&k| left_out[k] = true);
+            found.inner = inner.len();
         }
         if found == DrySkin::default() {
             return (self, found);
@@ -309,6 +330,18 @@ impl TriangleMesh {
         self.triangles.retain(|_| !out.next().unwrap_or(false));
         let kept: Vec<[Point; 3]> = self.corners().collect();
         (Self::from_corners(kept.into_iter()), found)
+    }
+
+    /// Whether the body is one of plates, and these triangles are its inner skin ([`HOLLOW`]).
+    fn is_inner_skin(&self, inner: &[usize]) -> bool {
+        // The integral of y dA_y: what is open above adds nothing to it.
+        let enclosed = |triangle: &[usize; 3]| {
+            let [a, b, c] = triangle.map(|vertex| self.vertices[vertex]);
+            cross(minus(b, a), minus(c, a))[1] * (a[1] + b[1] + c[1]) / 6.0
+        };
+        let body: f64 = self.triangles.iter().map(enclosed).sum();
+        let within: f64 = inner.iter().map(|&k| enclosed(&self.triangles[k])).sum();
+        !inner.is_empty() && body - within > HOLLOW * body.abs()
     }
 
     /// Edges of three triangles and more.
