@@ -67,7 +67,7 @@ impl Axis {
     /// G_i at wave number `k`; a flat bow falls to the centreplane at x = `fore`.
     pub(super) fn wave(&self, k: f64, fore: f64, values: &mut NetValues) {
         let mut moments = Moments::default();
-        let mut phases = Phases::default();
+        let mut phases = Phases::new();
         for list in [&mut values.real, &mut values.imaginary] {
             list.clear();
             list.resize(self.count, 0.0);
@@ -90,7 +90,6 @@ impl Axis {
 }
 
 /// e^{ikx} at rising x: where steps are equal, products of one factor.
-#[derive(Default)]
 struct Phases {
     x: f64,
     step: f64,
@@ -99,6 +98,11 @@ struct Phases {
 }
 
 impl Phases {
+    /// At x = 0, after a step of 0.
+    fn new() -> Self {
+        Self { x: 0.0, step: 0.0, here: [1.0, 0.0], factor: [1.0, 0.0] }
+    }
+
     fn at(&mut self, k: f64, x: f64) -> [f64; 2] {
         let of = |x: f64| {
             let (sine, cosine) = (k * x).sin_cos();
@@ -241,6 +245,23 @@ impl NetKochin {
             let targets = values.heights[*first..*first + self.up.functions].iter_mut();
             for (height, series) in targets.zip(&panel.series) {
                 *height += factor * series.iter().zip(of_decay).take(panel.count).map(|(c, i)| c * i).sum::<f64>();
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From any first place on, over steps that are equal and steps that are not.
+    #[test]
+    fn phases_are_those_of_their_places() {
+        for first in [0.0, -3.0, 2.5] {
+            let mut phases = Phases::new();
+            for x in [0.0, 0.5, 1.0, 1.5, 4.0, 5.0, 6.0].map(|x| first + x) {
+                let ([a, b], (sine, cosine)) = (phases.at(0.7, x), (0.7 * x).sin_cos());
+                assert!((a - cosine).abs().max((b - sine).abs()) < 1e-14, "{x}: {a} {b}");
             }
         }
     }
