@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::run_files::{Figures, Made, RunFiles};
+use super::run_files::{FIGURES_OF_MADE, Figures, Made, RunFiles};
 use super::target_flags::{TARGETS, TargetFlags};
 use crate::derivation::Dimension;
 use crate::exchange::blend_json;
@@ -84,8 +84,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let inputs = Inputs::of(&read);
     let destination = Destination { folder: &folder, inputs: &inputs, force: arguments.files.force };
     destination.check(["hull.json", "blend.json", "manifest.json"])?;
-    let usual = ["lines", "sections", "sectional-area", "hydrostatics", "diagram-sheet"];
-    let outputs = blend_outputs(&job, &arguments.figures.chosen(&arguments.files, &usual))?;
+    let outputs = blend_outputs(&job, &arguments.figures.chosen(&arguments.files, &FIGURES_OF_MADE))?;
     let made = Made { notes: &outputs.notes, warnings: &outputs.warnings, verdict: outputs.verdict() };
     arguments.files.finish(
         &destination,

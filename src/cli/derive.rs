@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::run_files::{Figures, Made, RunFiles};
+use super::run_files::{FIGURES_OF_MADE, Figures, Made, RunFiles};
 use super::target_flags::{DIMENSIONS, TARGETS, TargetFlags};
 use crate::config::DeriveFile;
 use crate::exchange::derive_json;
@@ -94,8 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let inputs = Inputs::of(&read);
     let destination = Destination { folder: &folder, inputs: &inputs, force: arguments.files.force };
     destination.check(["hull.json", "derive.json", "manifest.json"])?;
-    let usual = ["lines", "sections", "sectional-area", "hydrostatics", "diagram-sheet"];
-    let outputs = derive_outputs(&job, &arguments.figures.chosen(&arguments.files, &usual))?;
+    let outputs = derive_outputs(&job, &arguments.figures.chosen(&arguments.files, &FIGURES_OF_MADE))?;
     let made = Made { notes: &outputs.notes, warnings: &outputs.warnings, verdict: outputs.verdict() };
     arguments.files.finish(
         &destination,

@@ -35,6 +35,9 @@ pub(super) fn stem(input: &Path) -> &OsStr {
     stem.to_str().and_then(|name| name.strip_prefix("catalogue:")).map_or(stem, OsStr::new)
 }
 
+/// The figures that a command that makes one hull from others draws where none are chosen.
+pub(super) const FIGURES_OF_MADE: [&str; 5] = ["lines", "sections", "sectional-area", "hydrostatics", "diagram-sheet"];
+
 /// What a command that makes one hull from others comes to.
 pub(super) struct Made<'a> {
     pub(super) notes: &'a [String],

@@ -131,11 +131,9 @@ impl DeriveFile {
             (other.mass, other.volume, other.coefficients[0])
         };
         // KM and GM are one target, and so are areas and the file of them.
-        let (height, stability) = if self.heights[1].is_some() || self.stability[0].is_some() {
-            (self.heights[1], [self.stability[0], self.stability[1].or(other.stability[1])])
-        } else {
-            (other.heights[1], [other.stability[0], self.stability[1].or(other.stability[1])])
-        };
+        let own_height = self.heights[1].is_some() || self.stability[0].is_some();
+        let of_height = if own_height { &self } else { &other };
+        let (height, metacentric) = (of_height.heights[1], of_height.stability[0]);
         let own_areas = self.area_file.is_some() || !self.section_areas.is_empty();
         let (section_areas, area_file) =
             if own_areas { (self.section_areas, self.area_file) } else { (other.section_areas, other.area_file) };
@@ -150,7 +148,7 @@ impl DeriveFile {
             coefficients: [block, each(1), each(2), each(3)],
             centres: [0, 1].map(|k| self.centres[k].or(other.centres[k])),
             heights: [self.heights[0].or(other.heights[0]), height],
-            stability,
+            stability: [metacentric, self.stability[1].or(other.stability[1])],
             wetted_surface: self.wetted_surface.or(other.wetted_surface),
             angles: [0, 1].map(|k| self.angles[k].or(other.angles[k])),
             section_areas,

@@ -8,8 +8,8 @@
 //!
 //! which is linear in the half-breadths on a fixed chart. Where J vanishes the stem is round, and the waterline has no angle.
 
+use super::pool::row_of;
 use crate::hull::Hull;
-use crate::spline::MAX_DEGREE;
 
 /// |J| below this part of its mean is none.
 const VANISHING: f64 = 1e-6;
@@ -35,17 +35,9 @@ pub(super) fn slope(hull: &Hull, draught: f64, end: WaterlineEnd) -> Option<(f64
     if jacobian.abs() <= VANISHING * mean {
         return None;
     }
-    let (span_u, span_v) = (along.find_span(u), up.find_span(v));
-    let (p, q) = (along.degree(), up.degree());
-    let [b, db]: [[f64; MAX_DEGREE + 1]; 2] = along.basis_derivatives::<2>(span_u, u);
-    let [n, dn]: [[f64; MAX_DEGREE + 1]; 2] = up.basis_derivatives::<2>(span_v, v);
-    let columns = surface.shape()[1];
-    let places = (0..=p).flat_map(|i| (0..=q).map(move |j| (i, j)));
-    let weights = places.map(|(i, j)| {
-        let weight = db[i] * n[j] * d[0][1][2] - b[i] * dn[j] * d[1][0][2];
-        ((span_u - p + i) * columns + span_v - q + j, way * weight / jacobian)
-    });
-    let weights: Vec<(usize, f64)> = weights.filter(|(_, weight)| weight.abs() > 0.0).collect();
+    let heights = [d[0][1][2], -d[1][0][2]].map(|z| way * z / jacobian);
+    let mut weights = row_of(surface, [u, v], &[[1, 0], [0, 1]], &heights);
+    weights.retain(|(_, weight)| weight.abs() > 0.0);
     Some((weights.iter().map(|&(k, weight)| weight * surface.points()[k][1]).sum(), weights))
 }
 
@@ -73,8 +65,7 @@ mod tests {
             [(WaterlineEnd::Aft, row.half_angle_of_run), (WaterlineEnd::Fore, row.half_angle_of_entrance)]
         {
             let found = slope(&hull, 3.6, end).map(|(slope, _)| slope.atan().to_degrees());
-            assert!(found.zip(angle).is_none_or(|(a, b)| (a.abs() - b).abs() < 1e-9), "{end:?} {found:?} {angle:?}");
-            println!("{end:?} {found:?} {angle:?}");
+            assert!(found.zip(angle).is_some_and(|(a, b)| (a.abs() - b).abs() < 1e-9), "{end:?} {found:?} {angle:?}");
         }
     }
 }

@@ -159,12 +159,12 @@ fn bend(surface: &BsplineSurface<3>, [u, v]: [f64; 2], station: bool) -> Option<
     Some(Bend { row: row_of(surface, [u, v], &orders, &weights), value })
 }
 
-/// sum of weights times derivatives of y of these orders in u and v, over the net.
-fn row_of(
+/// sum of weights times derivatives of y of these orders in u and v, at most 2, over the net.
+pub(super) fn row_of<const N: usize>(
     surface: &BsplineSurface<3>,
     [u, v]: [f64; 2],
-    orders: &[[usize; 2]; 5],
-    weights: &[f64; 5],
+    orders: &[[usize; 2]; N],
+    weights: &[f64; N],
 ) -> Vec<(usize, f64)> {
     let (span_u, span_v) = (surface.u().find_span(u), surface.v().find_span(v));
     let (p, q) = (surface.u().degree(), surface.v().degree());
