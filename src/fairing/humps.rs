@@ -24,7 +24,9 @@
 //! Where targets move the whole hull, the humps that the field did not have before are no clearer than the move. They are
 //! candidates for the price of its mean square in the place of sigma^2.
 
-use super::bends::{Bend, Line, changes, dead, departure};
+mod line;
+
+use super::bends::{Bend, Line, changes};
 use super::choice::{trial, worth_it};
 use super::held::violated;
 use super::least::TableLine;
@@ -34,8 +36,8 @@ use super::smoothing::{Smoothed, Smoother};
 use super::strength::{Few, far_above};
 use crate::numeric::SymmetricBand;
 use crate::qp::{Interior, ProblemError, Settings};
+use line::{Asked, Sign, mark_new};
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 /// Most programs.
 const ROUNDS: usize = 10;
@@ -45,9 +47,6 @@ const CHOICES: [usize; 2] = [3, 5];
 
 /// Places of a line to each side of an inflection at which no sign is asked for.
 const AROUND: usize = 4;
-
-/// Part of the dead band of curvature that the limits leave open, for an interior to solve in.
-const ROOM: f64 = 1e-2;
 
 /// Where no program satisfies the signs, humps that are charged more than this part of the dearest are given back.
 const SHARE: f64 = 0.5;
@@ -114,28 +113,8 @@ impl Fewer {
     }
 }
 
-/// A part of a line with one sign.
-#[derive(Debug, Clone, Copy)]
-struct Hump {
-    sign: i8,
-    from: usize,
-    to: usize,
-    /// Its clearest place, in standard errors.
-    clear: f64,
-    /// Whether the move to the targets made it.
-    new: bool,
-}
-
 /// A hump: index of its line, and its own.
 type Place = (usize, usize);
-
-/// A sign at a place of a hump.
-struct Sign {
-    /// Place along the line.
-    at: usize,
-    positive: bool,
-    limit: Limit,
-}
 
 impl Sign {
     /// What it is known by, with the hump that has it.
@@ -224,21 +203,6 @@ struct Search<'a> {
     memory: Memory,
     /// Programs that were solved, and iterations of the solver.
     work: [usize; 2],
-}
-
-/// A line with what is asked of it.
-#[derive(Clone)]
-struct Asked {
-    /// Its bends.
-    bends: Vec<Bend>,
-    /// The field's own humps.
-    humps: Vec<Hump>,
-    /// Those that are given back.
-    back: Vec<bool>,
-    /// Whether signs are asked for whatever becomes of its humps.
-    watched: bool,
-    /// Places to each side of an inflection without a sign.
-    around: usize,
 }
 
 impl Question<'_> {
@@ -458,9 +422,9 @@ impl Question<'_> {
             inverse.quadratic_form(row.into_iter()).max(0.0).sqrt()
         };
         let errors: Vec<f64> = bends.iter().map(error).collect();
-        let mut humps = humps(&bends, &errors, net, self.sigma, self.seen);
+        let mut humps = line::humps(&bends, &errors, net, self.sigma, self.seen);
         if let Some(stationary) = self.model.stationary.as_ref().filter(|_| self.model.carried.is_some()) {
-            mark_new(&mut humps, &self::humps(&bends, &errors, &stationary.net, self.sigma, self.seen));
+            mark_new(&mut humps, &line::humps(&bends, &errors, &stationary.net, self.sigma, self.seen));
         }
         let back = vec![false; humps.len()];
         Asked { bends, humps, back, watched: false, around: AROUND }
@@ -470,188 +434,4 @@ impl Question<'_> {
 /// Gives humps back; whether one of them was not given back before.
 fn give_back(asked: &mut [Asked], gone: impl Iterator<Item = Place>) -> bool {
     gone.fold(false, |again, (k, hump)| again | !std::mem::replace(&mut asked[k].back[hump], true))
-}
-
-/// Inflections between humps.
-fn inflections(humps: &[Hump]) -> usize {
-    humps.len().saturating_sub(1)
-}
-
-/// Marks the humps that those before have none of the same sign for.
-fn mark_new(humps: &mut [Hump], before: &[Hump]) {
-    for hump in humps {
-        let same = |old: &&Hump| old.sign == hump.sign && old.from < hump.to && hump.from < old.to;
-        if !before.iter().any(|old| same(&old)) {
-            (hump.new, hump.clear) = (true, 0.0);
-        }
-    }
-}
-
-/// The humps of a line that depart from their chords by `seen` \[m\] at least; the whole line where none does.
-fn humps(bends: &[Bend], errors: &[f64], net: &[f64], sigma: f64, seen: f64) -> Vec<Hump> {
-    let values: Vec<f64> = bends.iter().map(|bend| value(&bend.numerator, net) + bend.offset).collect();
-    let mut found: Vec<Hump> = Vec::new();
-    for (k, value) in values.iter().enumerate() {
-        let clear = if errors[k] > 0.0 { value.abs() / (sigma * errors[k]) } else { 0.0 };
-        let sign = if *value >= 0.0 { 1 } else { -1 };
-        match found.last_mut().filter(|last| last.sign == sign) {
-            Some(last) => (last.to, last.clear) = (k + 1, last.clear.max(clear)),
-            None => found.push(Hump { sign, from: k, to: k + 1, clear, new: false }),
-        }
-    }
-    let departs = |hump: &Hump| departure(bends, [hump.from, hump.to], net);
-    let mut departures: Vec<f64> = found.iter().map(departs).collect();
-    while found.len() > 1 {
-        let least = (0..found.len()).min_by(|&a, &b| departures[a].total_cmp(&departures[b]));
-        let Some(k) = least.filter(|&k| departures[k] < seen) else { break };
-        let (whole, range) = joined(&found, k);
-        departures.splice(range.clone(), [departs(&whole)]);
-        found.splice(range, [whole]);
-    }
-    found
-}
-
-/// A hump with those beside it as one of their sign, and which they are.
-fn joined(humps: &[Hump], k: usize) -> (Hump, Range<usize>) {
-    let range = k.saturating_sub(1)..(k + 2).min(humps.len());
-    let beside = || range.clone().filter(|&other| other != k).map(|other| humps[other]);
-    let whole = Hump {
-        sign: -humps[k].sign,
-        from: humps[range.start].from,
-        to: humps[range.end - 1].to,
-        clear: beside().map(|hump| hump.clear).fold(0.0, f64::max),
-        new: beside().all(|hump| hump.new),
-    };
-    (whole, range)
-}
-
-impl Asked {
-    /// Signs of all places once the humps below the price are removed; none where none is.
-    fn signs(&self, price: f64) -> Option<Vec<i8>> {
-        let least = price.sqrt();
-        let (mut parts, mut back) = (self.humps.clone(), self.back.clone());
-        while parts.len() > 1 {
-            let free = (0..parts.len()).filter(|&k| !back[k] && parts[k].clear < least);
-            let Some(k) = free.min_by(|&a, &b| parts[a].clear.total_cmp(&parts[b].clear)) else { break };
-            let (whole, range) = joined(&parts, k);
-            let kept = range.clone().any(|other| other != k && back[other]);
-            parts.splice(range.clone(), [whole]);
-            back.splice(range, [kept]);
-        }
-        if parts.len() == self.humps.len() && !self.watched {
-            return None;
-        }
-        let mut signs = vec![0; self.bends.len()];
-        parts.iter().for_each(|part| signs[part.from..part.to].fill(part.sign));
-        Some(signs)
-    }
-
-    /// Inflections of the field.
-    fn count(&self) -> usize {
-        inflections(&self.humps)
-    }
-
-    /// Those of a net.
-    fn counted(&self, net: &[f64], seen: f64) -> usize {
-        inflections(&humps(&self.bends, &vec![0.0; self.bends.len()], net, 1.0, seen))
-    }
-
-    /// The limits of the places that have a sign, but for those about an inflection. A place whose curvature has not the
-    /// sign of its hump, which nobody sees, may keep it and not grow.
-    fn limits(&self, signs: &[i8], net: &[f64]) -> Vec<(usize, Sign)> {
-        let none = ROOM * dead(&self.bends, net);
-        let count = signs.len();
-        let beside = |k: usize| {
-            let near = k.saturating_sub(self.around)..(k + self.around + 1).min(count);
-            signs[near].iter().any(|&sign| sign != signs[k])
-        };
-        let mut limits = Vec::new();
-        for (index, hump) in self.humps.iter().enumerate() {
-            let places = (hump.from..hump.to).filter(|&k| !beside(k)).map(|k| (k, &self.bends[k], signs[k]));
-            for (at, bend, sign) in places {
-                let Some(scaled) = bend.scaled(net, none) else { continue };
-                let (now, room) = (f64::from(sign) * scaled.at(net), scaled.room);
-                let is_own = f64::from(hump.sign) * scaled.at(net) >= 0.0;
-                let least = if is_own { -room } else { now.min(-room) };
-                let range = if sign > 0 { [least, f64::INFINITY] } else { [f64::NEG_INFINITY, -least] };
-                limits.push((index, Sign { at, positive: sign > 0, limit: scaled.limit(range) }));
-            }
-        }
-        limits
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A line of places one metre apart with humps of these signs, lengths and clearness.
-    fn line(list: &[(i8, usize, f64)]) -> Asked {
-        let mut humps: Vec<Hump> = Vec::new();
-        for &(sign, count, clear) in list {
-            let from = humps.last().map_or(0, |last| last.to);
-            humps.push(Hump { sign, from, to: from + count, clear, new: false });
-        }
-        let back = vec![false; humps.len()];
-        Asked { bends: places(humps.last().map_or(0, |last| last.to)), humps, back, watched: false, around: 1 }
-    }
-
-    /// Places one metre apart whose control values are y''.
-    fn places(count: usize) -> Vec<Bend> {
-        let bend =
-            |k: usize| Bend { numerator: vec![(k, 1.0)], offset: 0.0, slope: Vec::new(), along: 1.0, at: k as f64 };
-        (0..count).map(bend).collect()
-    }
-
-    #[test]
-    fn humps_below_the_price_take_the_sign_around_them() {
-        let mut inner = line(&[(-1, 4, 30.0), (1, 3, 2.0), (-1, 4, 40.0)]);
-        assert_eq!(inner.signs(12.0), Some(vec![-1; 11]));
-        assert_eq!((inner.count(), inner.signs(3.0)), (2, None));
-        inner.back[1] = true;
-        assert_eq!(inner.signs(12.0), None);
-        // At an end: the sign beside it.
-        let outer = line(&[(1, 2, 1.0), (-1, 5, 9.0)]);
-        assert_eq!(outer.signs(12.0), Some(vec![-1; 7]));
-    }
-
-    /// Arcs of 4, 2 and 4 m with y'' of 1e-3 / m depart by 2, 0.5 and 2 mm. The least goes to its neighbours, and what they
-    /// are together departs by more than 3 mm.
-    #[test]
-    fn humps_that_are_seen_together_count_as_one() {
-        let signs = [-1, 1, -1, 1, -1];
-        let second = |lengths: [usize; 5]| -> Vec<f64> {
-            signs.iter().zip(lengths).flat_map(|(&sign, count)| vec![1e-3 * f64::from(sign); count]).collect()
-        };
-        let parts = |net: &[f64], seen: f64| -> Vec<(i8, usize)> {
-            let bends = places(net.len());
-            let found = humps(&bends, &vec![1.0; net.len()], net, 1.0, seen);
-            found.iter().map(|hump| (hump.sign, hump.from)).collect()
-        };
-        let net = second([8, 4, 2, 4, 8]);
-        assert_eq!(parts(&net, 1e-6), [(-1, 0), (1, 8), (-1, 12), (1, 14), (-1, 18)]);
-        assert_eq!(parts(&net, 3e-3), [(-1, 0), (1, 8), (-1, 18)]);
-        // Alone such an arc is none.
-        assert_eq!(parts(&second([8, 4, 0, 0, 8]), 3e-3), [(-1, 0)]);
-    }
-
-    #[test]
-    fn what_nobody_sees_may_stay_and_not_grow() {
-        let wide = line(&[(-1, 12, 30.0), (1, 4, 1.0)]);
-        let net: Vec<f64> = (0..16).map(|k| if (4..7).contains(&k) || k >= 12 { 0.5 } else { -1.0 }).collect();
-        let limits = wide.limits(&[-1; 16], &net);
-        let upper =
-            |k: usize| limits.iter().find(|(_, sign)| sign.limit.row[0].0 == k).map(|(_, sign)| sign.limit.upper);
-        assert!(upper(5).is_some_and(|upper| (upper - 0.5).abs() < 1e-12));
-        assert!(upper(13).is_some_and(|upper| upper < 0.01));
-    }
-
-    #[test]
-    fn no_sign_is_asked_for_beside_an_inflection() {
-        let changing = line(&[(-1, 6, 30.0), (1, 6, 40.0)]);
-        let signs: Vec<i8> = (0..12).map(|k| if k < 6 { -1 } else { 1 }).collect();
-        let limits = changing.limits(&signs, &signs.iter().map(|&sign| f64::from(sign)).collect::<Vec<_>>());
-        let rows: Vec<usize> = limits.iter().map(|(_, sign)| sign.limit.row[0].0).collect();
-        assert_eq!(rows, (0..5).chain(7..12).collect::<Vec<_>>());
-    }
 }
