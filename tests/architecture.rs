@@ -12,7 +12,7 @@ const FLOORS: [(&str, usize); 18] = [
     ("hull", 2),
     ("hydrostatics", 3),
     ("parametric", 4),
-    ("resistance", 4),
+    ("resistance", 3),
     ("fairing", 4),
     ("derivation", 5),
     ("config", 5),

@@ -201,7 +201,7 @@ fn what_is_infeasible_is_refused_with_numbers() {
         (&["--lcb", "60 %"], 2, &["E421 --lcb"]),
         (&["--cwp", "0.8", "--method", "lackenby"], 2, &["E422 --cwp", "--method nearest"]),
         (&["--cb", "0.6", "--displacement", "500"], 2, &["one target"]),
-        (&["--cb", "0.9"], 4, &["E420 --cb", "C_B 0.9000 is out of reach", "The nearest is C_B"]),
+        (&["--cb", "0.9"], 4, &["E420 --cb", "C_B 0.9000 is out of reach", "Give C_B"]),
         (&["--depth", "3"], 4, &["E420 --depth", "3.000 m"]),
     ];
     for (options, code, words) in cases {
@@ -313,7 +313,7 @@ fn the_wave_resistance_falls_as_its_weight_rises() {
         assert!(pair[1].ratio < pair[0].ratio + 1e-9 && pair[1].energy > pair[0].energy - 1e-12, "{pair:?}");
         // Each is the least of J + w R of its own weight.
         for (this, other) in [(pair[0], pair[1]), (pair[1], pair[0])] {
-            let sum = |trade: loftsman::internals::derivation::WaveTrade| trade.energy + this.weight * trade.ratio;
+            let sum = |trade: loftsman::internals::resistance::WaveTrade| trade.energy + this.weight * trade.ratio;
             assert!(sum(this) <= sum(other) * (1.0 + 1e-9), "{pair:?}");
         }
     }

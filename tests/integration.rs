@@ -38,6 +38,7 @@ mod fair_rocker;
 mod fair_rules;
 mod fair_sections;
 mod fair_strength;
+mod fair_waves;
 mod families;
 mod fit;
 mod fit_features;

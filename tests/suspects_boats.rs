@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use loftsman::internals::exchange::{ReadTable, read_table};
+use loftsman::internals::exchange::{ReadTable, TableWriting, read_table, write_table};
 use loftsman::internals::fairing::{PointSuspects, point_suspects};
+use loftsman::internals::hull::OffsetTable;
 use serde_json::Value;
 
 use crate::support::{carried, folder, json, program, read_text, stderr, stdout};
@@ -131,6 +132,7 @@ fn a_foot_in_a_skiff_has_its_cell_line_and_station() {
     let fixed = folder.join("fixed.csv").display().to_string();
     let done = program(&["check", &path, "--accept", "P1", "-o", &fixed]);
     assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
+    assert!(read_text(&fixed).contains("heights,sheer,1-10-0,1-8-4,1-8-0,"), "{}", read_text(&fixed));
     let points =
         |path: &str| read_table("t.csv", read_text(path).as_bytes()).unwrap().table.stations[2].outlines.clone();
     let sheer = points(&fixed)[0].last().copied().unwrap();
@@ -189,4 +191,44 @@ fn a_siding_is_no_open_bottom() {
     }
     assert!(table(&|f| vec![(0.5 * f, 0.3), (0.9 * f, 0.6), (1.2 * f, 1.2)]), "half of the bottom is not there");
     assert!(table(&|f| vec![(1.2 * f, 0.0), (1.2 * f, 0.6), (1.2 * f, 1.2)]), "no bottom at all");
+}
+
+/// A table of lines is written as it was read: the same rows, with the texts of the cells.
+#[test]
+fn a_table_of_lines_is_written_as_lines() {
+    let read = |text: &str| read(text).table;
+    let skiff = read_text(carried("tests/table_cases/skiff.csv"));
+    // With a waterline and a buttock besides.
+    let cuts = skiff.replace("widths,sheer", "widths,WL 1-2-0,1-4-4,1-9-6,1-11-6,1-10-4,1-0-2,0-0-6\nwidths,sheer");
+    for text in [&skiff, &cuts] {
+        let table = read(text);
+        let written = write_table(&table, TableWriting::default());
+        assert!(written.text.contains("\nheights,sheer,1-10-0,1-8-4,1-8-0,1-9-2,2-0-0,2-3-0\n"), "{}", written.text);
+        assert!(
+            written.text.contains("\nhalf-breadths,chine,1-3-0,1-7-4,1-10-0,1-7-6,0-9-4,0-0-6\n"),
+            "{}",
+            written.text
+        );
+        assert!(written.rounding.largest < 1e-12);
+        let again = read(&written.text);
+        for (one, other) in table.stations.iter().zip(&again.stations) {
+            assert_eq!(one.station, other.station);
+            let points = |station: &loftsman::internals::hull::StationOffsets| -> Vec<[f64; 2]> {
+                station.outlines.iter().flatten().map(|point| [point.y, point.z]).collect()
+            };
+            for (a, b) in points(one).iter().zip(&points(other)) {
+                assert!((a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9, "{one:?} {other:?}");
+            }
+            assert_eq!(points(one).len(), points(other).len());
+        }
+        let names =
+            |table: &OffsetTable| table.form.boat_lines.iter().map(|line| line.name.clone()).collect::<Vec<_>>();
+        assert_eq!(names(&table).len(), names(&again).len());
+    }
+    assert!(write_table(&read(&cuts), TableWriting::default()).text.contains("\nhalf-breadths,WL 1-2-0,"));
+    // A point that moved has its new number.
+    let mut table = read(&skiff);
+    table.stations[2].outlines[0][1].y += 0.0254;
+    let written = write_table(&table, TableWriting::default()).text;
+    assert!(written.contains("\nhalf-breadths,chine,1-3-0,1-7-4,1-11-0,1-7-6,"), "{written}");
 }

@@ -92,6 +92,12 @@ pub(super) struct Arguments {
     /// Greatest cost of removing an inflection: the sum of squared moves that it adds, over the noise squared [default: 12, and more while changes of sign are far above the least]
     #[arg(long, alias = "sign-price", value_name = "NUMBER", allow_hyphen_values = true)]
     inflection_cost: Option<String>,
+    /// Froude numbers of L_PP at which the wave resistance is made small within the tolerances, as 0.25:0.30:0.01
+    #[arg(long, value_name = "FN")]
+    wave_resistance: Option<String>,
+    /// Weight of the wave resistance against the energy of the move, m2 [default: the knee of seven weights]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    wave_weight: Option<String>,
     #[command(flatten)]
     _removed: Removed,
     #[command(flatten)]
@@ -191,6 +197,8 @@ impl Arguments {
             ("--fairness", "fairness", &self.fairness),
             ("--weight", "energy.weight", &self.weight),
             ("--inflection-cost", "inflections.cost", &self.inflection_cost),
+            ("--wave-resistance", "waves.froude_numbers", &self.wave_resistance),
+            ("--wave-weight", "waves.weight", &self.wave_weight),
             ("--accept-lines", "lines.accept", &self.accept_lines),
         ];
         let given = |(option, key, value): (&'static str, &'static str, &Option<String>)| {

@@ -309,20 +309,6 @@ fn parallel_body(document: &mut Document<'_>) -> Option<[f64; 2]> {
     None
 }
 
-/// Froude numbers of at most 2, and at most 60 of them.
-fn froude_numbers(document: &mut Document<'_>) -> Option<Vec<f64>> {
-    let path = "derive.wave_resistance";
-    let list = document.positions(path)?;
-    if (1..=60).contains(&list.len()) && list.iter().all(|number| (0.05..=2.0).contains(number)) {
-        return Some(list);
-    }
-    let span = document.entry(path).map_or(0..0, |e| e.span.clone());
-    let message = format!("{path} has {} numbers, {:?} the first", list.len(), list.first().copied().unwrap_or(0.0));
-    let help = "Expected 1 to 60 Froude numbers of 0.05 to 2, as \"0.25:0.30:0.01\".".to_owned();
-    document.problem("E124", path, &span, message, help);
-    None
-}
-
 fn interpret(document: &mut Document<'_>) -> DeriveFile {
     document.integer("schema");
     let displacement = document.dimensioned("derive.displacement");
@@ -360,7 +346,7 @@ fn interpret(document: &mut Document<'_>) -> DeriveFile {
         section_areas,
         area_file,
         parallel_body: parallel_body(document),
-        froude_numbers: froude_numbers(document),
+        froude_numbers: document.froude_numbers("derive.wave_resistance"),
         wave_weight: positive(document, "derive.wave_weight", "weight"),
         within: positive(document, "derive.within", "length"),
         free: free.into_iter().collect(),

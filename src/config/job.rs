@@ -25,7 +25,7 @@ pub use hold::{Quantity, Target};
 pub use keys::JOB_KEYS;
 pub(super) use keys::{REMOVED, RENAMED};
 pub use location::Location;
-use ranges::{density, dimension, fairness, positive, price, weight};
+use ranges::{density, dimension, fairness, positive, price, wave_weight, weight};
 pub use shape::RuleEntry;
 pub use table_ref::{TableItem, TableRef};
 
@@ -37,6 +37,8 @@ use crate::fairing::job::{Holding, Job};
 use crate::fairing::proposals::Accepted;
 use crate::fairing::strength::Fairness;
 use crate::hull::{OffsetTable, StatedParticulars};
+use crate::hydrostatics::Conventions;
+use crate::resistance::{Water, WaveRequest};
 
 /// What a job file says; what it does not say is none.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -77,6 +79,10 @@ pub struct JobFile {
     pub exclude_suspects: Option<bool>,
     /// What the removal of an inflection may cost at most, in squares of the noise.
     pub price: Option<f64>,
+    /// Froude numbers at which the wave resistance is made small.
+    pub froude_numbers: Option<Vec<f64>>,
+    /// Its weight [m^2].
+    pub wave_weight: Option<f64>,
     /// Where the values of the keys stand; of a key that is given twice the last counts.
     places: Vec<Location>,
 }
@@ -163,6 +169,8 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         tolerance: positive(document, "tolerance.table", "length; what must not move is locked under [lock]"),
         exclude_suspects: document.switch("suspects.exclude"),
         price: price(document),
+        froude_numbers: document.froude_numbers("waves.froude_numbers"),
+        wave_weight: wave_weight(document),
         places: document.entries.iter().map(|e| Location::new(document, &e.key.path(), e.span.start)).collect(),
         ..JobFile::default()
     };
@@ -205,6 +213,8 @@ impl JobFile {
             tolerance: other.tolerance.or(self.tolerance),
             exclude_suspects: other.exclude_suspects.or(self.exclude_suspects),
             price: other.price.or(self.price),
+            froude_numbers: other.froude_numbers.or(self.froude_numbers),
+            wave_weight: other.wave_weight.or(self.wave_weight),
             ..self
         }
     }
@@ -219,11 +229,13 @@ impl JobFile {
         job.weight = self.weight.flatten();
         job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
         job.price = self.price;
+        job.waves = self.waves();
         job.accepted = self.accepted.clone().unwrap_or_default();
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(table, length);
         let mut problems = self.two_strengths();
         problems.extend(self.at_no_draught(table));
+        problems.extend(self.weight_of_no_waves());
         let mut named: Vec<(TableItem, f64)> = Vec::new();
         for (mark, tolerance) in &self.tolerances {
             let found = mark.find(table);
@@ -314,8 +326,23 @@ impl JobFile {
         let curve = self.section_area_curve.iter().map(|(_, place)| place);
         let areas = self.section_areas.iter().map(|(_, place)| place).chain(curve);
         problems.extend(areas.map(|place| problem(place, "a section area")));
+        problems.extend(self.place("waves.froude_numbers").map(|place| problem(place, "the wave resistance")));
         problems.dedup();
         problems
+    }
+
+    /// The wave resistance that joins the objective, in the water of the job.
+    fn waves(&self) -> Option<WaveRequest> {
+        let water = Water::of_density(self.density.unwrap_or(Conventions::default().density));
+        let froude_numbers = self.froude_numbers.clone()?;
+        Some(WaveRequest { froude_numbers, weight: self.wave_weight, within: None, water })
+    }
+
+    /// A weight of no wave resistance.
+    fn weight_of_no_waves(&self) -> Option<Diagnostic> {
+        let place = self.place("waves.weight").filter(|_| self.froude_numbers.is_none())?;
+        let text = "a weight of the wave resistance is given, and no Froude numbers are";
+        Some(place.problem("E125", text, "Give waves.froude_numbers (--wave-resistance), or leave it out."))
     }
 
     /// Keys that say how strongly a table is faired beside the one that does.

@@ -280,6 +280,20 @@ impl Document<'_> {
         (numbers.len() == items.len()).then_some(numbers)
     }
 
+    /// Froude numbers of at most 2, and at most 60 of them.
+    pub(super) fn froude_numbers(&mut self, path: &str) -> Option<Vec<f64>> {
+        let list = self.positions(path)?;
+        if (1..=60).contains(&list.len()) && list.iter().all(|number| (0.05..=2.0).contains(number)) {
+            return Some(list);
+        }
+        let span = self.entry(path).map_or(0..0, |e| e.span.clone());
+        let message =
+            format!("{path} has {} numbers, {:?} the first", list.len(), list.first().copied().unwrap_or(0.0));
+        let help = "Expected 1 to 60 Froude numbers of 0.05 to 2, as \"0.25:0.30:0.01\".".to_owned();
+        self.problem("E124", path, &span, message, help);
+        None
+    }
+
     /// Positions \[m\] of a list.
     pub(super) fn positions(&mut self, path: &str) -> Option<Vec<f64>> {
         let (raw, span, kind) = self.raw(path)?;

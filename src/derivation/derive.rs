@@ -2,20 +2,20 @@
 
 use super::affine::scaled;
 use super::inflections::{counted_planes, inflections};
-use super::limits::{Interval, interval};
+use super::limits::Interval;
 use super::nearest::{BindingLimits, Failed, Search};
 use super::parallel;
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
-use super::request::{Method, Request, Target};
+use super::request::{Laws, Method, Request, Target};
 use super::shift::{Ends, Family, LEVEL_FOLD, level, shifted};
-use super::waves::WaveResult;
 use crate::hull::Hull;
 use crate::hydrostatics::Conventions;
 use crate::numeric::join;
+use crate::resistance::WaveResult;
 
 /// Part of the amplitude at which a shift folds that the start of the nearest hull takes at most.
-const OF_FOLD: f64 = 0.8;
+pub(super) const OF_FOLD: f64 = 0.8;
 /// Parts of the way to the targets that the shift takes, in the order in which they are tried.
 const PARTS: [f64; 3] = [0.5, 1.0, 0.0];
 
@@ -64,6 +64,9 @@ pub struct Derived {
     pub programs: usize,
     /// Whether the signs of curvature of the parent are kept.
     pub keeps_signs: bool,
+    /// Whether the parallel body of the parent is kept, where it has one.
+    #[doc(hidden)]
+    pub keeps_body: bool,
     /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
     pub inflections: [usize; 2],
     /// The wave resistance, where it is made small.
@@ -91,7 +94,8 @@ pub fn derive(
         scaled = parallel::with_ends(&scaled, draught, ends).map_err(|refusal| vec![refusal])?;
     }
     let Some(reference) = Reference::of(&scaled, conventions) else { return Err(vec![Refusal::no_draught()]) };
-    let targets = request.targets(&scaled, &reference)?;
+    let Some(own) = Reference::of(parent, conventions) else { return Err(vec![Refusal::no_draught()]) };
+    let targets = request.targets(&Laws { parent, own, scaled: &scaled }, &reference)?;
     let job = Job { scaled: &scaled, request, reference, targets: &targets, conventions, body };
     let mut derived = match request.method {
         Method::Affine => Ok(job.affine()),
@@ -110,7 +114,7 @@ pub fn derive(
         for k in 0..derived.targets.len() {
             let quantity = targets[k].quantity;
             let others: Vec<Target> = targets.iter().copied().filter(|other| other.quantity != quantity).collect();
-            derived.targets[k].interval = interval(&scaled, &derived.hull, &reference, quantity, &others, body);
+            derived.targets[k].interval = job.limits(&derived.hull, quantity, &others);
         }
     }
     Ok(derived)
@@ -160,6 +164,7 @@ impl Job<'_> {
             parallel_body: self.body,
             programs: 0,
             keeps_signs: false,
+            keeps_body: true,
             inflections: [0, 0],
             waves: None,
         }
@@ -200,9 +205,14 @@ impl Job<'_> {
     /// The hull nearest to starts with different parts of the shift: the first one without more inflections than the scaled
     /// parent, or the one with the fewest.
     fn nearest(&self) -> Result<Started, Vec<Refusal>> {
+        self.best().map_err(|failure| failure.map_or(Vec::new(), |(start, failed)| self.infeasible(&start, &failed)))
+    }
+
+    /// The same; where none is found, the first start with why it has none.
+    pub(super) fn best(&self) -> Result<Started, Option<(Hull, Failed)>> {
         let planes = counted_planes(self.scaled, self.conventions.stations);
         let before = inflections(self.scaled, &planes);
-        let mut best: Option<((usize, bool), Started)> = None;
+        let mut best: Option<((usize, bool, bool), Started)> = None;
         let mut failure = None;
         for part in PARTS {
             let (start, amplitudes) = self.started(part);
@@ -210,28 +220,24 @@ impl Job<'_> {
             match self.nearest_to(search, amplitudes) {
                 Ok(derived) => {
                     let after = inflections(&derived.hull, &planes);
-                    let rank = (after.max(before), !derived.keeps_signs);
+                    let rank = (after.max(before), !derived.keeps_signs, !derived.keeps_body);
                     let derived = Derived { inflections: [before, after], ..derived };
                     if best.as_ref().is_none_or(|(other, _)| rank < *other) {
                         best = Some((rank, (derived, start.clone(), amplitudes)));
                     }
                     // Without a shift all parts are one.
-                    if rank == (before, false) || amplitudes.iter().all(|a| a.abs() < 1e-12) {
+                    if rank == (before, false, false) || amplitudes.iter().all(|a| a.abs() < 1e-12) {
                         break;
                     }
                 }
                 Err(failed) => failure = failure.or(Some((start, failed))),
             }
         }
-        match (best, failure) {
-            (Some((_, found)), _) => Ok(found),
-            (None, Some((start, failed))) => Err(self.infeasible(&start, &failed)),
-            (None, None) => Err(Vec::new()),
-        }
+        best.map(|(_, found)| found).ok_or(failure)
     }
 
     /// The scaled parent with a level shift that brings volume and LCB so far towards their targets, and its amplitudes.
-    fn started(&self, part: f64) -> (Hull, [f64; 2]) {
+    pub(super) fn started(&self, part: f64) -> (Hull, [f64; 2]) {
         let towards = |target: &Target| {
             let before = value_of(target.quantity, self.scaled, &self.reference);
             Target { value: before + part * (target.value - before), ..*target }
@@ -256,8 +262,12 @@ impl Job<'_> {
 
     /// The hull nearest to a start, with the signs of curvature of the parent where they are feasible.
     pub(super) fn nearest_to(&self, mut search: Search<'_>, amplitudes: [f64; 2]) -> Result<Derived, Failed> {
-        let mut keeps_signs = true;
+        let (mut keeps_signs, mut keeps_body) = (true, true);
         let mut found = search.run();
+        if found.is_err() && search.without_own_body() {
+            keeps_body = false;
+            found = search.run();
+        }
         if found.is_err() {
             keeps_signs = false;
             search.without_signs();
@@ -275,6 +285,7 @@ impl Job<'_> {
             binding: nearest.binding,
             programs: nearest.programs,
             keeps_signs,
+            keeps_body,
             ..self.plain(nearest.hull)
         })
     }

@@ -1,16 +1,19 @@
 //! Why the nearest hull has not what is asked for, with what is within reach.
 
 use super::derive::Job;
-use super::limits::{Interval, interval};
+use super::inflections::is_about_as_fair;
+use super::limits::Interval;
 use super::nearest::{Failed, Search};
 use super::parallel::with_ends;
-use super::quantity::Quantity;
+use super::quantity::{Quantity, value_of};
 use super::refusal::Refusal;
 use super::request::{Origin, Target};
 use crate::hull::Hull;
 
 /// Most targets that a message lists.
 const MOST_LISTED: usize = 8;
+/// Parts of the way from the end of an interval to the parent at which a daughter is looked for.
+const MARGINS: [f64; 2] = [0.02, 0.2];
 /// Halvings of the length of a parallel body that is too long.
 const HALVINGS: usize = 6;
 
@@ -23,30 +26,79 @@ impl Job<'_> {
             Failed::Infeasible | Failed::Astray(_) => {}
         }
         let given = self.targets.iter().filter(|target| target.origin == Origin::Given);
-        let mut refused = Vec::new();
+        let (mut refused, mut held) = (Vec::new(), Vec::new());
         for target in given {
             let others: Vec<Target> =
                 self.targets.iter().copied().filter(|other| other.quantity != target.quantity).collect();
-            let found = interval(self.scaled, start, &self.reference, target.quantity, &others, self.body);
-            if let Some(found) = found.filter(|found| !found.holds(target.value)) {
-                refused.push(self.out_of_reach(target, &found, &others));
+            match self.limits(start, target.quantity, &others) {
+                Some(found) if !found.holds(target.value) => refused.push(self.out_of_reach(target, &found, &others)),
+                Some(found) => held.push((*target, found, others)),
+                None => {}
             }
         }
         if refused.is_empty() {
-            refused.push(self.body.map_or_else(|| self.together(failed), |ends| self.too_long(ends)));
+            refused.push(self.body.map_or_else(|| self.together(failed, &held), |ends| self.too_long(ends)));
         }
         refused
     }
 
+    /// A value of a target near `end` with which a daughter was found, on the way to the middle of its interval, and whether she is
+    /// about as fair as her parent.
+    fn within_reach(&self, target: &Target, end: f64, found: &Interval, others: &[Target]) -> Option<(f64, bool)> {
+        let middle = 0.5 * (found.low + found.high);
+        let parent = found.nearest(value_of(target.quantity, self.scaled, &self.reference));
+        let far = if (parent - end).abs() > 1e-3 * (found.high - found.low) { parent } else { middle };
+        let mut first = None;
+        for part in MARGINS {
+            let value = self.rounded(target.quantity, end + part * (far - end), found);
+            let mut targets = others.to_vec();
+            targets.push(Target { value, ..*target });
+            let job = Job { targets: &targets, ..*self };
+            let Ok((derived, ..)) = job.best() else { continue };
+            let [before, after] = derived.inflections;
+            if is_about_as_fair(before, after) {
+                return Some((value, true));
+            }
+            first = first.or(Some((value, false)));
+        }
+        first
+    }
+
+    /// The nearest value of a target with which a daughter was found, in words.
+    fn nearest_words(&self, target: &Target, end: f64, found: &Interval, others: &[Target]) -> String {
+        match self.within_reach(target, end, found, others) {
+            Some((value, true)) => {
+                format!("Give {}, which is met, or free a target that is kept", self.shown(target.quantity, value))
+            }
+            Some((value, false)) => format!(
+                "Give {}, which is met with more than one and a half times the inflections, or free a target that is kept",
+                self.shown(target.quantity, value)
+            ),
+            None => {
+                "Free a target that is kept (--free cm, --free lcb), or give a value nearer to the parent".to_owned()
+            }
+        }
+    }
+
     /// Targets that are infeasible together, while none of them is alone.
-    fn together(&self, failed: &Failed) -> Refusal {
+    fn together(&self, failed: &Failed, held: &[(Target, Interval, Vec<Target>)]) -> Refusal {
         let given = self.targets.iter().filter(|target| target.origin == Origin::Given);
         let words: Vec<&str> = given.map(|target| target.quantity.word()).collect();
         let left =
             if let Failed::Astray(left) = failed { format!(" (the last step left {left:.1e})") } else { String::new() };
         let message = format!("no hull near the parent has {} together{left}", self.list(self.targets));
-        let remedy = "Free a target that is kept (--free cm, --free lcb), or give targets nearer to the parent";
-        Refusal::new("E420", words, message, remedy.to_owned())
+        let span = |(target, found, _): &(Target, Interval, Vec<Target>)| {
+            let [low, high] = self.inwards(target.quantity, found);
+            format!("{} to {}", self.shown(target.quantity, low), self.number(target.quantity, high))
+        };
+        let alone: Vec<String> = held.iter().map(span).collect();
+        let alone =
+            if alone.is_empty() { String::new() } else { format!("; each with the others: {}", alone.join(", ")) };
+        let remedy = match held {
+            [(target, found, others)] => self.nearest_words(target, target.value, found, others),
+            _ => "Free a target that is kept (--free cm, --free lcb), or give targets nearer to the parent".to_owned(),
+        };
+        Refusal::new("E420", words, message + &alone, remedy)
     }
 
     /// A parallel body that the targets leave no ends for, with the longest about the same middle.
@@ -94,31 +146,79 @@ impl Job<'_> {
     }
 
     fn out_of_reach(&self, target: &Target, found: &Interval, others: &[Target]) -> Refusal {
-        let shown = |value: f64| self.shown(target.quantity, value);
-        let number = |value: f64| shown(value).split_once(' ').map_or(String::new(), |(_, number)| number.to_owned());
         let with = if others.is_empty() { String::new() } else { format!(" with {}", self.list(others)) };
-        let message =
-            format!("{} is out of reach: {} to {}{with}", shown(target.value), number(found.low), number(found.high));
-        let remedy = format!("The nearest is {}; or free a target that is kept", shown(found.nearest(target.value)));
+        let [low, high] = self.inwards(target.quantity, found).map(|end| self.number(target.quantity, end));
+        let signs = if found.keeps_signs { "" } else { ", without the signs of curvature of the parent" };
+        let wanted = self.shown(target.quantity, target.value);
+        let message = format!("{wanted} is out of reach: {low} to {high}{with}{signs}");
+        let remedy = self.nearest_words(target, found.nearest(target.value), found, others);
         Refusal::new("E420", vec![target.quantity.word()], message, remedy)
     }
 
-    /// A value as it is stated: volumes as C_B, LCB and LCF in per cent.
-    pub(super) fn shown(&self, quantity: Quantity, value: f64) -> String {
-        let percent = |x: f64| 100.0 * (x / self.reference.between - 0.5);
+    /// The interval in the digits that are shown, rounded inwards, so that its ends are feasible.
+    fn inwards(&self, quantity: Quantity, found: &Interval) -> [f64; 2] {
+        let scale = self.scale(quantity);
+        let [low, high] = [scale.steps(found.low).ceil(), scale.steps(found.high).floor()];
+        if low <= high { [low, high].map(|steps| scale.value(steps)) } else { [found.low, found.high] }
+    }
+
+    /// A value in the digits that are shown, within an interval where one is.
+    fn rounded(&self, quantity: Quantity, value: f64, found: &Interval) -> f64 {
+        let scale = self.scale(quantity);
+        let [low, high] = self.inwards(quantity, found);
+        scale.value(scale.steps(value).round()).clamp(low, high)
+    }
+
+    /// How a value is stated: volumes as C_B, LCB and LCF in per cent.
+    fn scale(&self, quantity: Quantity) -> Scale {
+        let of = |name, factor, offset, decimals, unit| Scale { name, factor, offset, decimals, unit };
+        let percent = |name| of(name, 100.0 / self.reference.between, -50.0, 3, " % of Lpp");
         match quantity {
-            Quantity::Volume => format!("C_B {:.4}", value / self.reference.volume()),
-            Quantity::Lcb => format!("LCB {:+.3} % of Lpp", percent(value)),
-            Quantity::Lcf => format!("LCF {:+.3} % of Lpp", percent(value)),
-            Quantity::MidshipCoefficient => format!("C_M {value:.4}"),
-            Quantity::PrismaticCoefficient => format!("C_P {value:.4}"),
-            Quantity::WaterplaneCoefficient => format!("C_WP {value:.4}"),
-            Quantity::Kb => format!("KB {value:.3} m"),
-            Quantity::Km => format!("KM {value:.3} m"),
-            Quantity::WettedSurface => format!("S {value:.2} m2"),
-            Quantity::HalfAngleOfEntrance => format!("i_E {value:.3} deg"),
-            Quantity::HalfAngleOfRun => format!("i_R {value:.3} deg"),
-            Quantity::SectionArea { x } => format!("A@{x:.3} {value:.3} m2"),
+            Quantity::Volume => of("C_B", 1.0 / self.reference.volume(), 0.0, 4, ""),
+            Quantity::Lcb => percent("LCB"),
+            Quantity::Lcf => percent("LCF"),
+            Quantity::MidshipCoefficient => of("C_M", 1.0, 0.0, 4, ""),
+            Quantity::PrismaticCoefficient => of("C_P", 1.0, 0.0, 4, ""),
+            Quantity::WaterplaneCoefficient => of("C_WP", 1.0, 0.0, 4, ""),
+            Quantity::Kb => of("KB", 1.0, 0.0, 3, " m"),
+            Quantity::Km => of("KM", 1.0, 0.0, 3, " m"),
+            Quantity::WettedSurface => of("S", 1.0, 0.0, 2, " m2"),
+            Quantity::HalfAngleOfEntrance => of("i_E", 1.0, 0.0, 3, " deg"),
+            Quantity::HalfAngleOfRun => of("i_R", 1.0, 0.0, 3, " deg"),
+            Quantity::SectionArea { .. } => of("A", 1.0, 0.0, 3, " m2"),
         }
+    }
+
+    fn number(&self, quantity: Quantity, value: f64) -> String {
+        let Scale { factor, offset, decimals, unit, .. } = self.scale(quantity);
+        let (value, decimals) = (factor * value + offset, usize::from(decimals));
+        if offset < 0.0 { format!("{value:+.decimals$}{unit}") } else { format!("{value:.decimals$}{unit}") }
+    }
+
+    /// A value with its name and unit.
+    pub(super) fn shown(&self, quantity: Quantity, value: f64) -> String {
+        let at = if let Quantity::SectionArea { x } = quantity { format!("@{x:.3}") } else { String::new() };
+        format!("{}{at} {}", self.scale(quantity).name, self.number(quantity, value))
+    }
+}
+
+/// How values of a quantity are stated: factor times value and offset, with decimals and unit.
+#[derive(Debug, Clone, Copy)]
+struct Scale {
+    name: &'static str,
+    factor: f64,
+    offset: f64,
+    decimals: u8,
+    unit: &'static str,
+}
+
+impl Scale {
+    /// A value in units of the last decimal.
+    fn steps(&self, value: f64) -> f64 {
+        (self.factor * value + self.offset) * 10f64.powi(i32::from(self.decimals))
+    }
+
+    fn value(&self, steps: f64) -> f64 {
+        (steps / 10f64.powi(i32::from(self.decimals)) - self.offset) / self.factor
     }
 }

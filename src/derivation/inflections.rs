@@ -13,6 +13,12 @@ pub fn counted_planes(hull: &Hull, numbers: StationNumbers) -> Planes {
     }
 }
 
+/// Whether a hull has at most one and a half times the inflections before, and two.
+#[must_use]
+pub fn is_about_as_fair(before: usize, after: usize) -> bool {
+    2 * after <= 3 * before + 4
+}
+
 /// Changes of the sign of curvature along these planes that can be seen on a drawing.
 #[must_use]
 pub fn inflections(hull: &Hull, planes: &Planes) -> usize {

@@ -23,12 +23,11 @@ mod refusal;
 mod request;
 mod shift;
 mod trade;
-mod waves;
 
 pub use affine::scaled;
 pub use blend::{Blend, BlendRequest, BlendTarget, BlendedHull, Dimension, blend};
 pub use derive::{Derived, Reached, derive};
-pub use inflections::{counted_planes, inflections};
+pub use inflections::{counted_planes, inflections, is_about_as_fair};
 pub use lackenby::{HalfBody, ShiftLimit, changes_of_halves};
 pub use limits::Interval;
 pub use nearest::BindingLimits;
@@ -36,7 +35,6 @@ pub use quantity::{Quantity, Reference, value_of};
 pub use refusal::Refusal;
 pub use request::{Dimensions, Method, Origin, Request, Target};
 pub use shift::LEVEL_FOLD;
-pub use waves::{WaveRequest, WaveResult, WaveTrade};
 
 #[cfg(test)]
 mod samples {

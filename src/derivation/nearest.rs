@@ -7,20 +7,20 @@
 //!             0 <= y + c <= B/2, order of sections and waterlines, signs of curvature
 //! ```
 //!
-//! A wave resistance joins J as a second convex term ([`super::waves`]). Rows of limits come into the program when an answer misses them. Equations that are not linear (KM, wetted surface, the
+//! A wave resistance joins J as a second convex term ([`crate::resistance::WaveTerm`]). Rows of limits come into the program when an answer misses them. Equations that are not linear (KM, wetted surface, the
 //! place of the largest section) are linearised at the answer until they hold; a last correction of least size takes what
 //! the solver leaves, so that relative errors are those of rounding.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::bending::form;
-use super::parallel::{Band, band};
+use super::parallel::{Band, band, own_band};
 use super::pool::{AT_LIMIT, Candidate, Kind, candidates};
 use super::quantity::{Equation, Reference, equation};
 use super::request::Target;
-use super::waves::WaveTerm;
 use crate::hull::{Hull, HullError};
 use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
+use crate::resistance::WaveTerm;
 use crate::spline::BsplineSurface;
 
 /// Relative error at which an equation holds.
@@ -146,8 +146,10 @@ pub(super) struct Search<'a> {
     /// Unit of the changes \[m\].
     pub(super) unit: f64,
     form: SparseRows,
-    /// The parallel body, where one is stated.
+    /// The parallel body that is stated, or that the start has.
     band: Option<Band>,
+    /// Whether it is stated.
+    states_band: bool,
     /// The wave resistance with its weight [m^2].
     waves: Option<(&'a WaveTerm, f64)>,
     pub(super) programs: usize,
@@ -175,6 +177,8 @@ impl<'a> Search<'a> {
     ) -> Self {
         let band = body.and_then(|ends| band(start, reference.draught, ends));
         let freedom = Freedom::of(start, band.as_ref());
+        let states_band = body.is_some();
+        let band = if states_band { band } else { own_band(start, reference.draught) };
         let bears = |candidate: &Candidate| candidate.row.iter().any(|(k, _)| freedom.places[*k].is_some());
         let candidates: Vec<Candidate> = candidates(parent, start).into_iter().filter(bears).collect();
         let form = form(start, &freedom.places);
@@ -189,6 +193,7 @@ impl<'a> Search<'a> {
             unit: 0.5 * start.particulars().breadth,
             form,
             band,
+            states_band,
             waves: None,
             programs: 0,
             rounds: ROUNDS,
@@ -199,7 +204,9 @@ impl<'a> Search<'a> {
     pub(super) fn equations(&self, hull: &Hull) -> Vec<Equation> {
         let targets = self.targets.iter().map(|target| equation(target.quantity, target.value, hull, self.reference));
         let [columns, points] = [hull.surface().shape()[1], hull.surface().points().len()];
+        let is_free = |k: usize| self.freedom.places[k].is_some();
         let pairs = self.band.iter().flat_map(|band| band.pairs(columns));
+        let pairs = pairs.filter(|[a, b]| is_free(*a) || is_free(*b));
         let alike = pairs.map(|[a, b]| {
             let mut gradient = vec![0.0; points];
             (gradient[a], gradient[b]) = (-1.0 / self.unit, 1.0 / self.unit);
@@ -331,7 +338,7 @@ impl<'a> Search<'a> {
     /// Corrects what the equations are off by with the least change of points that stand off the centreplane.
     fn correct(&self, mut y: Vec<f64>) -> Result<(Vec<f64>, f64), Failed> {
         let off = |equations: &[Equation]| equations.iter().map(|e| e.residual.abs()).fold(0.0, f64::max);
-        if let Some(band) = &self.band {
+        if let Some(band) = self.band.as_ref().filter(|_| self.states_band) {
             band.level(&mut y, self.start.surface().shape()[1]);
         }
         let mut best = (y.clone(), f64::INFINITY);
@@ -416,6 +423,11 @@ impl<'a> Search<'a> {
             BindingLimits { kind: kind.word(), count, price }
         };
         Kind::ALL.map(of_kind).into_iter().filter(|limits| limits.count > 0).collect()
+    }
+
+    /// Leaves the parallel body of the start out; false where it has none, or it is stated.
+    pub(super) fn without_own_body(&mut self) -> bool {
+        !self.states_band && self.band.take().is_some()
     }
 
     /// Leaves the signs of curvature out.

@@ -12,6 +12,8 @@ use crate::hull::Hull;
 const WATERLINES: usize = 33;
 /// Part of the parameters within which a knot is at an end.
 const AT_KNOT: f64 = 1e-9;
+/// Part of B by which half-breadths of a parallel body may differ.
+const SAME: f64 = 1e-9;
 /// Part of D by which heights may differ along the body.
 const LEVEL: f64 = 1e-9;
 
@@ -74,6 +76,29 @@ pub(super) fn band(hull: &Hull, draught: f64, ends: [f64; 2]) -> Option<Band> {
     let (first, last) = (inside.first()? - along.degree(), *inside.last()?);
     let columns = up.find_span(hull.height_parameter_at(0.5 * (from + to), draught)?) + 1;
     Some(Band { first, last, columns })
+}
+
+/// The longest run of rows with the same half-breadths below T, where sections between knots are alike; none where there are no
+/// such sections.
+pub(super) fn own_band(hull: &Hull, draught: f64) -> Option<Band> {
+    let surface = hull.surface();
+    let (start, end) = surface.u().domain();
+    let columns = surface.v().find_span(hull.height_parameter_at(0.5 * (start + end), draught)?) + 1;
+    let rows = surface.shape()[0];
+    let slack = SAME * hull.particulars().breadth;
+    let is_same = |i: usize| {
+        let apart = |j: usize| (surface.point(i + 1, j)[1] - surface.point(i, j)[1]).abs();
+        (0..columns).all(|j| apart(j) <= slack) && (0..columns).any(|j| surface.point(i, j)[1] > slack)
+    };
+    let (mut best, mut first) = (0..0, 0);
+    for i in 0..rows.saturating_sub(1) {
+        if !is_same(i) {
+            first = i + 1;
+        } else if i + 1 - first > best.len() {
+            best = first..i + 1;
+        }
+    }
+    (best.len() >= surface.u().degree()).then_some(Band { first: best.start, last: best.end, columns })
 }
 
 /// The hull with knots at the ends of the body, which change nothing.

@@ -2,8 +2,8 @@
 
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
-use super::waves::WaveRequest;
 use crate::hull::Hull;
+use crate::resistance::WaveRequest;
 
 /// Main dimensions of the daughter \[m\]; those of the parent where none is named.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -104,6 +104,31 @@ pub struct Request {
     pub waves: Option<WaveRequest>,
 }
 
+/// What a daughter keeps of her parent: C_B, LCB over L_PP and C_M by the affine laws, which the scaled parent has up to what
+/// another depth moves below T.
+pub(super) struct Laws<'a> {
+    pub(super) parent: &'a Hull,
+    /// The reference of the parent.
+    pub(super) own: Reference,
+    pub(super) scaled: &'a Hull,
+}
+
+impl Laws<'_> {
+    fn value(&self, quantity: Quantity, reference: &Reference) -> f64 {
+        let parent = value_of(quantity, self.parent, &self.own);
+        let along = reference.between / self.own.between;
+        match quantity {
+            Quantity::Volume => {
+                let sections = reference.breadth * reference.draught / (self.own.breadth * self.own.draught);
+                parent * along * sections
+            }
+            Quantity::Lcb => parent * along,
+            Quantity::MidshipCoefficient => parent,
+            other => value_of(other, self.scaled, reference),
+        }
+    }
+}
+
 impl Request {
     /// The value that the request states for a quantity of a hull with this reference.
     pub(super) fn stated(&self, quantity: Quantity, reference: &Reference) -> Option<f64> {
@@ -125,12 +150,13 @@ impl Request {
     ///
     /// # Errors
     /// Every value that no ship has, and every target that the method does not take.
-    pub(super) fn targets(&self, scaled: &Hull, reference: &Reference) -> Result<Vec<Target>, Vec<Refusal>> {
+    pub(super) fn targets(&self, laws: &Laws<'_>, reference: &Reference) -> Result<Vec<Target>, Vec<Refusal>> {
+        let scaled = laws.scaled;
         let mut list = Vec::new();
         for quantity in Quantity::ALL {
             let stated =
                 self.stated(quantity, reference).map(|value| Target { quantity, value, origin: Origin::Given });
-            let kept = || Target { quantity, value: value_of(quantity, scaled, reference), origin: Origin::Kept };
+            let kept = || Target { quantity, value: laws.value(quantity, reference), origin: Origin::Kept };
             list.extend(stated.or_else(|| self.keeps(quantity).then(kept)));
         }
         list.extend(self.areas().map(|(x, value)| Target {
@@ -138,7 +164,11 @@ impl Request {
             value,
             origin: Origin::Given,
         }));
-        let mut refused: Vec<Refusal> = list.iter().filter_map(|target| impossible(target, reference)).collect();
+        let mut refused: Vec<Refusal> = list
+            .iter()
+            .filter(|target| target.origin == Origin::Given)
+            .filter_map(|target| impossible(target, reference))
+            .collect();
         refused.extend(list.iter().filter_map(|target| undefined(target, scaled, reference)));
         refused.extend(self.of_method(&list));
         if refused.is_empty() { Ok(list) } else { Err(refused) }

@@ -4,13 +4,8 @@ use super::derive::{Derived, Job};
 use super::inflections::{counted_planes, inflections};
 use super::nearest::{Failed, breadths};
 use super::refusal::Refusal;
-use super::waves::{WaveRequest, WaveResult, WaveTerm, WaveTrade, knee, resistances};
 use crate::hull::Hull;
-
-/// R that the middle one of seven weights of the wave resistance gains, about.
-const MIDDLE_GAIN: f64 = 0.1;
-/// Factor from one weight of the wave resistance to the next.
-const WEIGHT_STEP: f64 = 4.0;
+use crate::resistance::{NoWaveTerm, WaveRequest, WaveResult, WaveTerm, WaveTrade, knee};
 
 /// That no weight of the wave resistance has a daughter.
 fn no_weight(request: &WaveRequest, failed: Option<&Failed>) -> Refusal {
@@ -26,6 +21,16 @@ fn no_weight(request: &WaveRequest, failed: Option<&Failed>) -> Refusal {
     Refusal::new("E420", words, message, "Allow more with --within, or free a target that is kept".to_owned())
 }
 
+/// That R_W is no term of the program.
+fn no_term(why: &NoWaveTerm) -> Refusal {
+    let remedy = match why {
+        NoWaveTerm::Hull(error) => return Refusal::hull(error),
+        NoWaveTerm::NotLevel(_) => "Derive from a hull with a level keel and level waterlines, as of generate",
+        NoWaveTerm::TooMany(..) => "Derive from a hull with a coarser net",
+    };
+    Refusal::new("E425", vec!["wave-resistance"], why.to_string(), remedy.to_owned())
+}
+
 impl Job<'_> {
     /// The daughter of least bending and wave resistance: for the weight that is given, or for seven of which the knee is taken.
     pub(super) fn with_waves(
@@ -36,9 +41,10 @@ impl Job<'_> {
         amplitudes: [f64; 2],
     ) -> Result<Derived, Vec<Refusal>> {
         let draught = self.reference.draught;
-        let before = resistances(self.scaled, request, draught).map_err(|refusal| vec![refusal])?;
+        let resistances = |hull: &Hull| request.resistances(hull, draught).map_err(|error| vec![Refusal::hull(&error)]);
+        let before = resistances(self.scaled)?;
         let free = self.search(start).freedom.points;
-        let term = WaveTerm::new(start, &free, request, draught, &before).map_err(|refusal| vec![refusal])?;
+        let term = WaveTerm::new(start, &free, request, draught, &before).map_err(|why| vec![no_term(&why)])?;
         let planes = counted_planes(self.scaled, self.conventions.stations);
         let base = breadths(start);
         let moves = |hull: &Hull| -> Vec<f64> {
@@ -62,10 +68,8 @@ impl Job<'_> {
             };
             Ok::<_, Failed>((derived, trade))
         };
-        let weights = match request.weight {
-            Some(weight) => vec![weight],
-            None => self.weights_of_waves(&term, &plain, &moves, &solved),
-        };
+        let ratio = |weight: f64| Some(solved(weight).ok()?.1.ratio);
+        let weights = request.weights(term.after(&moves(&plain.hull)), 0.5 * self.reference.breadth, ratio);
         let (mut found, mut failure) = (Vec::new(), None);
         for weight in weights {
             match solved(weight) {
@@ -79,38 +83,9 @@ impl Job<'_> {
         let trades: Vec<WaveTrade> = found.iter().map(|(_, trade)| *trade).collect();
         let taken = knee(&trades);
         let (derived, trade) = found.swap_remove(taken);
-        let after = resistances(&derived.hull, request, draught).map_err(|refusal| vec![refusal])?;
+        let after = resistances(&derived.hull)?;
         let froude_numbers = request.froude_numbers.clone();
         let waves = WaveResult { froude_numbers, before, after, trades, taken };
         Ok(Derived { inflections: [plain.inflections[0], trade.inflections], waves: Some(waves), ..derived })
-    }
-
-    /// Seven weights by factors of [`WEIGHT_STEP`], the middle one of which lowers R by about [`MIDDLE_GAIN`]: from the gain of a
-    /// weight so small that it grows with it.
-    fn weights_of_waves(
-        &self,
-        term: &WaveTerm,
-        plain: &Derived,
-        moves: &dyn Fn(&Hull) -> Vec<f64>,
-        solved: &dyn Fn(f64) -> Result<(Derived, WaveTrade), Failed>,
-    ) -> Vec<f64> {
-        let unit = 0.5 * self.reference.breadth;
-        let without = term.after(&moves(&plain.hull));
-        let mut weight = 1e-4 * unit * unit;
-        for _ in 0..8 {
-            let Ok((_, trade)) = solved(weight) else { break };
-            let gain = without - trade.ratio;
-            if !gain.is_finite() {
-                break;
-            } else if gain > 0.2 * MIDDLE_GAIN {
-                weight *= 0.1;
-            } else if gain < 1e-3 * MIDDLE_GAIN {
-                weight *= 30.0;
-            } else {
-                weight *= MIDDLE_GAIN / gain;
-                break;
-            }
-        }
-        (-3..=3).map(|k| weight * WEIGHT_STEP.powi(k)).collect()
     }
 }

@@ -3,7 +3,9 @@
 use serde_json::{Value, json};
 
 use super::number::json_number;
+use super::waves::waves_json;
 use crate::hull::SurfaceDistance;
+use crate::resistance::WaveResult;
 
 /// A target of a daughter.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,43 +26,8 @@ pub struct DerivedTarget {
     pub price: Option<f64>,
     /// Least and greatest value with the others as they are.
     pub interval: Option<[f64; 2]>,
-}
-
-/// What the wave resistance comes to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WaveReport {
-    /// Froude numbers.
-    pub froude_numbers: Vec<f64>,
-    /// R_W of the scaled parent and of the daughter \[N\].
-    pub resistances: [Vec<f64>; 2],
-    /// Weight [m^2], mean of R_W over that of the scaled parent, bending [m^2] and moves \[m\] of every weight, with its
-    /// inflections, and whether signs of curvature are kept.
-    pub trades: Vec<([f64; 4], usize, bool)>,
-    /// Which of them was taken.
-    pub taken: usize,
-}
-
-fn waves_json(waves: &WaveReport) -> Value {
-    let speed = |(k, number): (usize, &f64)| {
-        let of = |which: usize| json_number(waves.resistances[which].get(k).copied());
-        json!({ "froude_number": json_number(Some(*number)), "RW_scaled_parent": of(0), "RW_daughter": of(1) })
-    };
-    let trade = |([weight, ratio, energy, moves], inflections, keeps_signs): &([f64; 4], usize, bool)| {
-        let number = |value: &f64| json_number(Some(*value));
-        json!({
-            "weight": number(weight),
-            "RW_ratio": number(ratio),
-            "energy": number(energy),
-            "moves_rms": number(moves),
-            "inflections": inflections,
-            "keeps_signs": keeps_signs,
-        })
-    };
-    json!({
-        "speeds": waves.froude_numbers.iter().enumerate().map(speed).collect::<Vec<_>>(),
-        "weights": waves.trades.iter().map(trade).collect::<Vec<_>>(),
-        "taken": waves.taken,
-    })
+    /// Whether signs of curvature are kept all over it.
+    pub keeps_signs: bool,
 }
 
 /// What `derive.json` holds.
@@ -84,10 +51,12 @@ pub struct DeriveReport<'a> {
     pub parallel_body: Option<[f64; 2]>,
     /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
     pub inflections: [usize; 2],
+    /// Ends of the parallel middle body of the scaled parent and of the daughter \[m\].
+    pub middle_bodies: [Option<[f64; 2]>; 2],
     /// How far the daughter is from the scaled parent.
     pub moved: Option<SurfaceDistance>,
     /// The wave resistance, where it is made small.
-    pub waves: Option<WaveReport>,
+    pub waves: Option<&'a WaveResult>,
     /// Warnings.
     pub warnings: &'a [String],
 }
@@ -106,6 +75,7 @@ pub fn derive_json(report: &DeriveReport<'_>) -> Value {
             "error": json_number(Some(t.achieved - t.requested)),
             "shadow_price": json_number(t.price),
             "interval": t.interval.map(|ends| ends.map(|end| json_number(Some(end)))),
+            "interval_keeps_signs": t.interval.map(|_| t.keeps_signs),
         })
     };
     let shift = report.shift.map(|[amplitudes, low, high]| {
@@ -124,7 +94,11 @@ pub fn derive_json(report: &DeriveReport<'_>) -> Value {
         "parallel_body": report.parallel_body,
         "inflections": { "scaled_parent": report.inflections[0], "daughter": report.inflections[1] },
         "moved_from_scaled_parent": moved,
-        "wave_resistance": report.waves.as_ref().map(waves_json),
+        "parallel_middle_body": {
+            "scaled_parent": report.middle_bodies[0].map(|ends| ends.map(|end| json_number(Some(end)))),
+            "daughter": report.middle_bodies[1].map(|ends| ends.map(|end| json_number(Some(end)))),
+        },
+        "wave_resistance": report.waves.map(waves_json),
         "warnings": report.warnings,
     })
 }

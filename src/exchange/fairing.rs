@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::number::{cell, json_number, line};
+use super::waves::waves_json;
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::field::line_errors::{FoundErrors, ShiftedLine};
@@ -354,6 +355,8 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             "fairness": number(outcome.fairness.grade()), "weight": number(faired.lambda), "readings": faired.smoother.count(), "edf": number(faired.edf), "rms": number(faired.chosen.rms),
             "energy": number(faired.chosen.energy), "trials": trials,
         },
+        // Where R_W of thin ships joined the objective; null elsewhere.
+        "wave_resistance": faired.waves.as_ref().map(waves_json),
         "suspects": suspects,
         "excluded": outcome.changes.iter().filter(|change| change.suspect).map(|c| place(table, c)).collect::<Vec<_>>(),
         "notes": outcome.notes,

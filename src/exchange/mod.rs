@@ -27,12 +27,13 @@ mod section;
 mod subdivision;
 mod summary;
 mod table;
+mod waves;
 
 pub use blend::{BlendPart, BlendReport, blend_json};
 pub use cad::{CadUnit, DxfLine, DxfVersion, write_3dm, write_dxf, write_iges, write_step};
 pub use compare::{CompareFile, ComparedValue, compare_csv, compare_json, per_cent};
 pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
-pub use derive::{DeriveReport, DerivedTarget, WaveReport, derive_json};
+pub use derive::{DeriveReport, DerivedTarget, derive_json};
 pub use fairing::{
     COMPROMISE_LINE, NO_MOVE, RoundingEffect, changes_csv, control_polygon_csv, fairing_json, priced, reached,
     status_word,

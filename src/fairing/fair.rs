@@ -14,6 +14,7 @@ use super::fielded::{below_centreplane, local_noise};
 use super::humps::{self, Fewer};
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
+use super::least_waves::{WaveAim, least_waves};
 use super::model::Limit;
 use super::noise::{Differences, errors, taken};
 use super::program::{Program, RowName, Solved, Wishes};
@@ -25,6 +26,7 @@ use super::surface::FairSurface;
 use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
 use crate::qp::{ProblemError, Settings};
+use crate::resistance::{NoWaveTerm, WaveResult};
 
 /// Dearest signs where nobody says another price, in units of sigma^2.
 pub const PRICE: f64 = 12.0;
@@ -76,6 +78,8 @@ pub struct FairSettings {
     pub seen: f64,
     /// Whether half-breadths may be outside 0 to B/2 as far as those of the surface through the table are.
     pub admits: bool,
+    /// The wave resistance that joins the objective, where it is asked for.
+    pub waves: Option<WaveAim>,
     /// The solver.
     pub solver: Settings,
 }
@@ -107,6 +111,12 @@ pub enum FairError {
     /// A net makes no hull.
     #[error(transparent)]
     Hull(#[from] HullError),
+    /// The wave resistance is no quadratic form of the net.
+    #[error(transparent)]
+    Waves(#[from] NoWaveTerm),
+    /// No weight of the wave resistance has an answer.
+    #[error("no weight of the wave resistance has an answer within the tolerances")]
+    NoWaves,
 }
 
 /// What fairing comes to.
@@ -150,6 +160,8 @@ pub struct Faired {
     /// Largest relative error of metacentre and wetted surface before their first new linearisation and after each;
     /// none where everything that is held is linear.
     pub settled: Option<Vec<f64>>,
+    /// What the wave resistance came to, where it joined the objective.
+    pub waves: Option<WaveResult>,
     /// The smoothing problem, for further questions.
     pub smoother: Smoother,
     /// Programs solved.
@@ -325,23 +337,23 @@ pub fn fair_prepared(
     }
     let mut price = 0.0;
     let mut fewer = None;
+    let lines = &counted_lines(&prepared.lines, &settings.rules);
+    let question = humps::Question {
+        model,
+        smoother,
+        likely: prepared.likely.as_ref().unwrap_or(&prepared.smoothed),
+        lambda,
+        sigma,
+        wishes: &wishes,
+        lines,
+        seen: settings.seen,
+        price: settings.price,
+        few: settings.few,
+        before: settings.before,
+        least_tolerance: settings.least_tolerance,
+        solver: &settings.solver,
+    };
     if settings.signs && diagnosis.is_none() && solved.is_optimal() {
-        let lines = &counted_lines(&prepared.lines, &settings.rules);
-        let question = humps::Question {
-            model,
-            smoother,
-            likely: prepared.likely.as_ref().unwrap_or(&prepared.smoothed),
-            lambda,
-            sigma,
-            wishes: &wishes,
-            lines,
-            seen: settings.seen,
-            price: settings.price,
-            few: settings.few,
-            before: settings.before,
-            least_tolerance: settings.least_tolerance,
-            solver: &settings.solver,
-        };
         let mut found = question.run(&solved)?;
         programs += found.programs;
         iterations += found.iterations;
@@ -350,6 +362,13 @@ pub fn fair_prepared(
             (program, solved) = accepted;
         }
         fewer = Some(found);
+    }
+    let mut waves = None;
+    if let Some(aim) = settings.waves.as_ref().filter(|_| diagnosis.is_none() && solved.is_optimal()) {
+        let found = least_waves(&question, surface, aim, &solved)?;
+        programs += found.work[0];
+        iterations += found.work[1];
+        (program, solved, waves) = (found.program, found.solved, Some(found.waves));
     }
     surface.model.carried.clone_from(&model.carried);
     let mut settled = None;
@@ -368,6 +387,7 @@ pub fn fair_prepared(
         without: carry.without,
         rules: wishes.rules,
         settled,
+        waves,
         diagnosis,
         instead,
         net: solved.net.clone(),

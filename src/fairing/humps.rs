@@ -227,6 +227,23 @@ impl Question<'_> {
         Ok(found)
     }
 
+    /// The signs of curvature that the lines of a net have, as limits.
+    pub(super) fn signs_of(&self, net: &[f64]) -> Vec<Limit> {
+        let inverse = self.likely.factor.inverse_band();
+        let of_line = |line: &TableLine| {
+            let asked = Asked { watched: true, around: 1, ..self.line(line, net, &inverse) };
+            let limits = asked.signs(0.0).map(|signs| asked.limits(&signs, net));
+            limits.into_iter().flatten().map(|(_, sign)| sign.limit).collect::<Vec<_>>()
+        };
+        self.lines.iter().flat_map(of_line).collect()
+    }
+
+    /// Inflections of a net along all lines.
+    pub(super) fn inflections(&self, net: &[f64]) -> usize {
+        let counted = |line: &TableLine| line::counted(&line.bends, net, self.seen);
+        self.lines.iter().map(counted).sum()
+    }
+
     /// Whether inflections along the lines whose least is known, and along all, are few.
     fn are_few(&self, few: &Few, [known, all]: [usize; 2]) -> bool {
         let least = self.lines.iter().filter_map(|line| line.least.as_ref()).map(|least| least.count).sum();

@@ -3,12 +3,14 @@
 
 use super::constraint::{Constraint, Rule};
 use super::fair::FairError;
+use super::least_waves::WaveAim;
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::proposals::Accepted;
 use super::strength::Fairness;
 use super::surface::{FairSurface, Origin};
 use crate::hull::{FitError, Hull, HullError, OffsetTable};
 use crate::qp::Settings;
+use crate::resistance::WaveRequest;
 
 /// Least tolerance over the breadth: below it a difference is rounding.
 pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
@@ -170,6 +172,9 @@ pub struct Job {
     pub signs: bool,
     /// Dearest change of curvature that is forbidden, in squares of the noise; none: by the grade and what it comes to.
     pub price: Option<f64>,
+    /// The wave resistance that is made small besides, at the design draught.
+    #[doc(hidden)]
+    pub waves: Option<WaveRequest>,
     /// The solver.
     #[doc(hidden)]
     pub solver: Settings,
@@ -183,6 +188,17 @@ impl Job {
             && !self.rules.iter().any(|rule| matches!(rule, Rule::FlatOfSide { .. } | Rule::FlatOfBottom { .. }))
             && self.lines.is_empty()
             && self.accepted == Accepted::None
+    }
+}
+
+impl Job {
+    /// The wave resistance that is asked for, at the draught of the ship \[m\].
+    pub(super) fn waves_at(&self, draught: Option<f64>) -> Result<Option<WaveAim>, JobError> {
+        let aim = |request: &WaveRequest| match draught {
+            Some(draught) => Ok(WaveAim { request: request.clone(), draught }),
+            None => Err(JobError::NoDraught("wave resistance".to_owned())),
+        };
+        self.waves.as_ref().map(aim).transpose()
     }
 }
 
@@ -201,6 +217,7 @@ impl Default for Job {
             exclude_suspects: true,
             signs: true,
             price: None,
+            waves: None,
             solver: Settings { tolerance: 1e-11, ..Settings::default() },
         }
     }

@@ -22,6 +22,7 @@ pub mod inflections;
 pub mod inspect;
 pub mod job;
 pub mod least;
+pub mod least_waves;
 mod lines;
 pub mod metric;
 pub mod model;

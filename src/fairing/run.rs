@@ -237,6 +237,7 @@ impl<'a> Run<'a> {
             price: job.price.unwrap_or(PRICE),
             few: None,
             before: 0,
+            waves: job.waves_at(before.particulars().draught)?,
             lines: stations.chain(waterlines).collect(),
             seen: bump(before.particulars().length_between_perpendiculars, quantum),
             // Tolerances that are less than that leave no room to do better.
@@ -322,7 +323,7 @@ impl<'a> Run<'a> {
         self.least(&mut lines, &faired);
         let asked = self.asked.iter().zip(held);
         let held: Vec<Held> = asked.map(|(&constraint, held)| Held { constraint, ..held }).collect();
-        let mut rules = held::rules(&self.surface, &self.settings, &faired, self.known.is_none());
+        let mut rules = held::rules(&self.surface, &self.settings, &faired, self.is_priced());
         for &rule in &given.rules {
             rules.insert(rule, HeldRule::given_up(&self.job.rules[rule], &self.surface, &after));
         }
@@ -383,6 +384,11 @@ impl<'a> Run<'a> {
             notes: self.notes,
             taken: Taken { job: self.job.clone(), started: self.started },
         })
+    }
+
+    /// Whether what is held costs moves: with a wave resistance it costs energy, and multipliers are the prices.
+    fn is_priced(&self) -> bool {
+        self.known.is_none() && self.settings.waves.is_none()
     }
 
     /// The program of the settings as they are.
@@ -465,10 +471,10 @@ impl<'a> Run<'a> {
             }
             after => after?,
         };
-        let Self { surface, settings, before, known, .. } = self;
+        let Self { surface, settings, before, .. } = self;
         let (lines, held) = join(
             || watched.turns(&after),
-            || held::constraints(surface, settings, &faired, [before, &after], known.is_none()),
+            || held::constraints(surface, settings, &faired, [before, &after], self.is_priced()),
         );
         Ok(Attempt { faired, after, lines, held })
     }
@@ -517,7 +523,7 @@ impl<'a> Run<'a> {
 
     /// The notes, what bends more often before all else: whoever reads no further should know it.
     fn tell(&mut self, faired: &Faired, held: &[Held], lines: &[Turns], beyond: [f64; 2]) {
-        let (job, surface) = (self.job, &self.surface);
+        let (job, surface, settings) = (self.job, &self.surface, &self.settings);
         let notes = &mut self.notes;
         let mut when = |applies: bool, note: &str| {
             if applies {
@@ -555,6 +561,10 @@ impl<'a> Run<'a> {
         when(
             self.noise > ALARM * self.quantum && self.proposals.iter().any(left_alone),
             "the noise is far above the rounding of the table, and lines are proposed that it does not declare",
+        );
+        when(
+            settings.waves.is_some() && faired.waves.is_none(),
+            "the wave resistance is as it comes: the targets cannot all be met, and it joins the objective where they can",
         );
         self.notes.extend(surface.out_of_reach(&faired.net));
         if surface.is_field && points > 0 && !self.assumed.is_empty() {

@@ -252,6 +252,14 @@ impl Smoother {
         }
     }
 
+    /// lambda E over the unknowns: what a move d costs in energy alone, d'(lambda E) d \[m^2\].
+    #[must_use]
+    pub(super) fn energy_of_moves(&self, lambda: f64) -> SymmetricBand {
+        let mut energy = SymmetricBand::zeros(self.energy.size(), self.energy.width());
+        energy.add_band(lambda, &self.energy);
+        energy
+    }
+
     /// What the linear part of a program over these unknowns has more with the readings and the origin of `other`.
     #[must_use]
     pub fn linear_less(&self, lambda: f64, other: &Self) -> Vec<f64> {

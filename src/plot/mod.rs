@@ -101,4 +101,4 @@ pub use smoothing::smoothing_figure;
 pub use surface_map::{SurfaceMapKind, SurfaceMaps, surface_map};
 pub use suspects::{suspect_heights_figure, suspect_points_figure, suspects_figure};
 pub use table_sheet::{table_figure, table_sheets};
-pub use trade::{TradePoint, trade_figure};
+pub use trade::trade_figure;

@@ -1,6 +1,6 @@
 //! Wave resistance against fairness against moves: what each weight of the wave resistance comes to, and the knee.
 //!
-//! Curves join the answers of rising weights. Their abscissa is the mean of R_W over that of the scaled parent. The root of the
+//! Curves join the answers of rising weights. Their abscissa is the mean of R_W over that of the first hull. The root of the
 //! bending is the left ordinate, in which the knee is the point farthest from the chord; moves are the right one.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
@@ -8,35 +8,23 @@ use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
+use crate::resistance::WaveTrade;
 
 /// Size of the sheet \[mm\].
 const SHEET: [f64; 2] = [240.0, 160.0];
 /// The chord from the first to the last weight.
 const CHORD: Pen = Pen::new(0.25, "#7a7a7a").dashed(&[4.0, 1.5]);
 
-/// One weight of the wave resistance with what it comes to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TradePoint {
-    /// The weight \[m^2\].
-    pub weight: f64,
-    /// Mean of R_W over that of the scaled parent.
-    pub ratio: f64,
-    /// Bending of the change \[m^2\].
-    pub energy: f64,
-    /// Root of the mean square of the moves \[m\].
-    pub moves: f64,
-}
-
 /// Draws the weights, with `taken` as the knee; none where fewer than three differ.
 ///
 /// # Errors
 /// [`PlotError`] when the chart cannot be drawn.
-pub fn trade_figure(name: &str, points: &[TradePoint], taken: usize) -> Result<Option<Svg>, PlotError> {
+pub fn trade_figure(name: &str, points: &[WaveTrade], taken: usize) -> Result<Option<Svg>, PlotError> {
     Ok(compose(name, points, taken)?.map(|canvas| Svg::new(canvas.finish("trade"))))
 }
 
-pub(super) fn compose(name: &str, points: &[TradePoint], taken: usize) -> Result<Option<Canvas>, PlotError> {
-    let gain = |point: &TradePoint| 100.0 * (point.ratio - 1.0);
+pub(super) fn compose(name: &str, points: &[WaveTrade], taken: usize) -> Result<Option<Canvas>, PlotError> {
+    let gain = |point: &WaveTrade| 100.0 * (point.ratio - 1.0);
     let bending: Vec<[f64; 2]> = points.iter().map(|p| [gain(p), p.energy.max(0.0).sqrt()]).collect();
     let moves: Vec<[f64; 2]> = points.iter().map(|p| [gain(p), 1e3 * p.moves]).collect();
     let ends = |list: &[[f64; 2]], axis: usize| {
@@ -52,8 +40,8 @@ pub(super) fn compose(name: &str, points: &[TradePoint], taken: usize) -> Result
     }
     let chart = Chart {
         frame: Rectangle::new(28.0, 28.0, SHEET[0] - 28.0, SHEET[1] - 24.0),
-        bottom: Axis::new("mean R_W, change from the scaled parent [%]", low, high, 10.0),
-        left: Axis::new("root of the bending [m]", 0.0, 1.04 * most, 8.0),
+        bottom: Axis::new("mean R_W, change [%]", low, high, 10.0),
+        left: Axis::new("root of the energy of the change [m]", 0.0, 1.04 * most, 8.0),
         top: None,
         right: Some(Axis::new("moves of half-breadths, RMS [mm]", 0.0, 1.04 * farthest, 8.0)),
         text_size: 2.8,
@@ -76,7 +64,7 @@ pub(super) fn compose(name: &str, points: &[TradePoint], taken: usize) -> Result
         dash: secondary.then_some([2.4, 1.2]),
         name_at: if secondary { 0.3 } else { 0.7 },
     };
-    chart.draw(&mut canvas, &mut placer, &[of("bending", &bending, false), of("moves", &moves, true)], &[])?;
+    chart.draw(&mut canvas, &mut placer, &[of("energy", &bending, false), of("moves", &moves, true)], &[])?;
     let at: Vec<[f64; 2]> = bending.iter().map(|point| chart.place(*point)).collect();
     for (k, &[x, y]) in at.iter().enumerate() {
         let half = if k == taken { 1.5 } else { 0.8 };
@@ -109,7 +97,14 @@ mod tests {
     /// R = 1 / (1 + s) at the bending s^2: every weight is drawn, the one that is taken as the knee.
     #[test]
     fn the_knee_is_named_and_one_weight_is_no_curve() {
-        let of = |s: f64| TradePoint { weight: s, ratio: 1.0 / (1.0 + s), energy: s * s, moves: 0.01 * s };
+        let of = |s: f64| WaveTrade {
+            weight: s,
+            ratio: 1.0 / (1.0 + s),
+            energy: s * s,
+            moves: 0.01 * s,
+            inflections: 0,
+            keeps_signs: true,
+        };
         let points = [0.1, 0.3, 0.6, 1.0, 1.6].map(of);
         let canvas = compose("ship", &points, 3).unwrap().unwrap();
         let words: Vec<&str> = canvas.texts().iter().map(|text| text.content.as_str()).collect();

@@ -137,6 +137,7 @@ fn target(reached: &BlendTarget) -> DerivedTarget {
         achieved: reached.achieved,
         price: None,
         interval: reached.interval.map(|found| [found.low, found.high]),
+        keeps_signs: false,
     }
 }
 

@@ -8,22 +8,16 @@ use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{Outputs, json_file};
 use super::source::{Overrides, Source, read_bytes, read_source_with, utf8};
+use super::waves::trade_files;
 use crate::config::{DeriveFile, Diagnostic, Severity, read_derive};
-use crate::derivation::{
-    Derived, Dimensions, Method, Quantity, Reached, Request, WaveRequest, WaveResult, WaveTrade, derive,
-};
-use crate::exchange::{CurveProblem, DeriveReport, DerivedTarget, TargetLine, WaveReport, derive_json, read_curve};
+use crate::derivation::{Derived, Dimensions, Method, Quantity, Reached, Request, derive};
+use crate::exchange::{CurveProblem, DeriveReport, DerivedTarget, TargetLine, derive_json, read_curve};
 use crate::hull::{Hull, SurfaceDistance, surface_distance};
-use crate::hydrostatics::Conventions;
+use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 use crate::numeric::join;
-use crate::plot::{Figure, TradePoint, trade_figure};
-use crate::resistance::Water;
+use crate::plot::Figure;
+use crate::resistance::{Water, WaveRequest};
 use crate::units::Notation;
-
-/// Resolution of the figure of the weights.
-const DOTS_PER_INCH: f64 = 150.0;
-/// Temperature of the water, on which R_W does not depend \[deg C\].
-const WATER_TEMPERATURE: f64 = 15.0;
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -56,6 +50,9 @@ pub struct DeriveOutputs {
     pub targets: Vec<DerivedTarget>,
     /// Inflections of stations and waterlines, of the scaled parent and of the daughter.
     pub inflections: [usize; 2],
+    /// Ends of the parallel middle body of the scaled parent and of the daughter \[m\], where they have one.
+    #[doc(hidden)]
+    pub middle_bodies: [Option<[f64; 2]>; 2],
     /// How far the daughter is from the scaled parent.
     pub moved: Option<SurfaceDistance>,
     /// GM and KG, where they are stated \[m\].
@@ -83,8 +80,9 @@ impl DeriveOutputs {
             limits: derived.binding.iter().map(|limits| (limits.kind, limits.count, limits.price)).collect(),
             parallel_body: derived.parallel_body,
             inflections: self.inflections,
+            middle_bodies: self.middle_bodies,
             moved: self.moved,
-            waves: derived.waves.as_ref().map(wave_report),
+            waves: derived.waves.as_ref(),
             warnings: &self.warnings,
         }
     }
@@ -163,23 +161,13 @@ impl DeriveJob {
                 froude_numbers,
                 weight: wanted.wave_weight,
                 within: wanted.within,
-                water: Water::new(1000.0 * conventions.density, WATER_TEMPERATURE),
+                water: Water::of_density(conventions.density),
             }),
         }
     }
 
     fn method(&self) -> Method {
         Method::ALL.into_iter().find(|method| Some(method.as_str()) == self.wanted.method).unwrap_or_default()
-    }
-}
-
-fn wave_report(waves: &WaveResult) -> WaveReport {
-    let trade = |t: &WaveTrade| ([t.weight, t.ratio, t.energy, t.moves], t.inflections, t.keeps_signs);
-    WaveReport {
-        froude_numbers: waves.froude_numbers.clone(),
-        resistances: [waves.before.clone(), waves.after.clone()],
-        trades: waves.trades.iter().map(trade).collect(),
-        taken: waves.taken,
     }
 }
 
@@ -194,6 +182,7 @@ fn target(reached: &Reached) -> DerivedTarget {
         achieved: reached.achieved,
         price: reached.price,
         interval: reached.interval.map(|found| [found.low, found.high]),
+        keeps_signs: reached.interval.is_some_and(|found| found.keeps_signs),
     }
 }
 
@@ -220,7 +209,8 @@ pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutpu
     };
     let derived = derive(&parent, &job.request(&conventions), &conventions, job.intervals)
         .map_err(|refusals| refused(refusals, &job.wanted, job.file.as_deref()))?;
-    let warnings = warnings(job, derived.inflections);
+    let rows = rows(&derived, &conventions);
+    let warnings = warnings(job, &derived, rows.as_ref());
     let targets: Vec<DerivedTarget> = derived.targets.iter().map(target).collect();
     let made = DerivedHull {
         hull: derived.hull.clone().with_name(daughter_name(&parent)),
@@ -237,7 +227,20 @@ pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutpu
     let inflections = derived.inflections;
     let [gm, kg] = job.wanted.stability;
     let stability = gm.zip(kg).map(|(gm, kg)| [gm, kg]);
-    Ok(DeriveOutputs { stability, outputs, method, comparison, targets, inflections, moved, warnings, notes, derived })
+    let middle_bodies = rows.as_ref().map_or([None, None], |rows| rows.each_ref().map(middle_body));
+    Ok(DeriveOutputs {
+        stability,
+        outputs,
+        method,
+        comparison,
+        targets,
+        inflections,
+        middle_bodies,
+        moved,
+        warnings,
+        notes,
+        derived,
+    })
 }
 
 impl DeriveOutputs {
@@ -255,7 +258,7 @@ impl DeriveOutputs {
 /// # Errors
 /// [`Failure::Check`] (E505) otherwise.
 pub(super) fn is_about_as_fair(what: &str, [before, after]: [usize; 2]) -> Result<(), Failure> {
-    if 2 * after <= 3 * before + 4 {
+    if crate::derivation::is_about_as_fair(before, after) {
         return Ok(());
     }
     Err(Failure::Check(format!(
@@ -263,15 +266,63 @@ pub(super) fn is_about_as_fair(what: &str, [before, after]: [usize; 2]) -> Resul
     )))
 }
 
-fn warnings(job: &DeriveJob, [before, after]: [usize; 2]) -> Vec<String> {
+/// Part of B by which the breadth of the waterline may change without a warning.
+const SAME_BREADTH: f64 = 1e-3;
+/// Part of its length below which a parallel middle body is lost.
+const SHORTER: f64 = 0.5;
+
+/// The scaled parent and the daughter at the draught of the targets; none where one does not float there.
+fn rows(derived: &Derived, conventions: &Conventions) -> Option<[Hydrostatics; 2]> {
+    let row = |hull: &Hull| CurvesOfForm::new(hull, &[derived.reference.draught], conventions).rows.pop();
+    let (scaled, own) = join(|| row(&derived.scaled), || row(&derived.hull));
+    Some([scaled?, own?])
+}
+
+/// Ends of the parallel middle body \[m\].
+fn middle_body(row: &Hydrostatics) -> Option<[f64; 2]> {
+    Some([row.parallel_body_aft?, row.parallel_body_fore?])
+}
+
+fn warnings(job: &DeriveJob, derived: &Derived, rows: Option<&[Hydrostatics; 2]>) -> Vec<String> {
     let warning = |code: &'static str, message: String, help: &str| {
         Diagnostic { severity: Severity::Warning, ..problem(code, &job.parent, message, help) }.to_string()
     };
-    let more = after > before;
-    let message =
-        || format!("the daughter has {after} inflections of stations and waterlines, its scaled parent {before}");
-    let help = "Give targets nearer to the parent, free one that is kept, or fair the table of the daughter";
-    more.then(|| warning("W420", message(), help)).into_iter().collect()
+    let mut found = Vec::new();
+    let [before, after] = derived.inflections;
+    if after > before {
+        let message =
+            format!("the daughter has {after} inflections of stations and waterlines, its scaled parent {before}");
+        let help = "Give targets nearer to the parent, free one that is kept, or fair the table of the daughter";
+        found.push(warning("W420", message, help));
+    }
+    let Some(rows) = rows else { return found };
+    let ([scaled, own], whole) = (rows.each_ref().map(|row| row.waterline_breadth), derived.reference.breadth);
+    if (own - scaled).abs() > SAME_BREADTH * whole {
+        let message = format!(
+            "the waterline of the daughter is {own:.3} m broad, that of the scaled parent {scaled:.3} m: B and the coefficients are \
+             those of {whole:.3} m"
+        );
+        found.push(warning(
+            "W422",
+            message,
+            "Give a shorter parallel body, more displacement or C_M, or the B that is wanted",
+        ));
+    }
+    let length = |body: [f64; 2]| body[1] - body[0];
+    let [scaled, own] = rows.each_ref().map(middle_body);
+    let lost = scaled.filter(|body| own.is_none_or(|own| length(own) < SHORTER * length(*body)));
+    if let Some([aft, fore]) = lost.filter(|_| derived.parallel_body.is_none()) {
+        let rest = own.map_or("none".to_owned(), |[aft, fore]| format!("one from {aft:.3} to {fore:.3} m"));
+        let message = format!(
+            "the scaled parent has a parallel middle body from {aft:.3} to {fore:.3} m, and the daughter {rest}: the targets leave it no room"
+        );
+        found.push(warning(
+            "W423",
+            message,
+            "Give targets nearer to the parent, or the body that is wanted (--parallel-body)",
+        ));
+    }
+    found
 }
 
 fn daughter_name(parent: &Hull) -> String {
@@ -299,21 +350,8 @@ pub fn derive_files(job: &DeriveJob, outputs: &DeriveOutputs, drawn: bool) -> Re
     let record = json_file("derive.json", &derive_json(&outputs.report()))?;
     let inputs: Vec<PathBuf> = [input_file(&job.parent)].into_iter().chain(job.other_inputs()).collect();
     let mut records = vec![record];
-    if drawn {
-        records.extend(trade_files(outputs)?);
+    if let Some(waves) = outputs.derived.waves.as_ref().filter(|_| drawn) {
+        records.extend(trade_files(&outputs.outputs.summary.name, waves)?);
     }
     run_files(&outputs.outputs, records, &outputs.comparison, &inputs, drawn)
-}
-
-/// The figure of the weights of the wave resistance, as PNG and SVG, where several were solved.
-fn trade_files(outputs: &DeriveOutputs) -> Result<Vec<OutputFile>, Failure> {
-    let Some(waves) = &outputs.derived.waves else { return Ok(Vec::new()) };
-    let point = |t: &WaveTrade| TradePoint { weight: t.weight, ratio: t.ratio, energy: t.energy, moves: t.moves };
-    let points: Vec<TradePoint> = waves.trades.iter().map(point).collect();
-    let internal = |error: &dyn std::fmt::Display| Failure::Internal(format!("wave-trade: {error}"));
-    let figure = trade_figure(&outputs.outputs.summary.name, &points, waves.taken).map_err(|error| internal(&error))?;
-    let Some(figure) = figure else { return Ok(Vec::new()) };
-    let contents = figure.to_png(DOTS_PER_INCH).map_err(|error| internal(&error))?;
-    let svg = OutputFile::text("wave-trade.svg", figure.as_str().to_owned());
-    Ok(vec![OutputFile { name: "wave-trade.png".to_owned(), contents }, svg])
 }

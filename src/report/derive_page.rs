@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use super::compare_page::compare_page;
 use super::derive::DeriveOutputs;
 use super::page::{dimensions, fixed, wrapped};
-use crate::derivation::{BindingLimits, Method, WaveResult};
+use super::waves::waves_page;
+use crate::derivation::{BindingLimits, Method};
 use crate::exchange::DerivedTarget;
-use crate::resistance::THIN_SHIP_LIMITS;
 
 /// Decimals of a value of a target.
 pub(super) fn decimals(target: &DerivedTarget) -> usize {
@@ -51,7 +51,9 @@ fn targets(page: &mut String, outputs: &DeriveOutputs) {
     for target in outputs.targets.iter().filter(|target| target.interval.is_some()) {
         let Some([low, high]) = target.interval else { continue };
         let write = |value: f64| fixed(value, decimals(target));
-        let line = format!("{} can be {} to {} with the others as they are.", target.key, write(low), write(high));
+        let signs = if target.keeps_signs { "" } else { ", without the signs of curvature of the parent" };
+        let line =
+            format!("{} can be {} to {} with the others as they are{signs}.", target.key, write(low), write(high));
         page.push_str(&wrapped(&line, 2));
     }
     page.push('\n');
@@ -106,6 +108,12 @@ fn how(outputs: &DeriveOutputs) -> Vec<String> {
     }
     let [before, after] = outputs.inflections;
     lines.push(format!("Inflections of stations and waterlines, scaled parent > daughter: {before} > {after}."));
+    if outputs.middle_bodies.iter().any(Option::is_some) {
+        let [scaled, own] = outputs
+            .middle_bodies
+            .map(|body| body.map_or("none".to_owned(), |[aft, fore]| format!("{aft:.3} to {fore:.3} m")));
+        lines.push(format!("Parallel middle body, scaled parent > daughter: {scaled} > {own}."));
+    }
     if let Some(moved) = outputs.moved {
         lines.push(format!(
             "Moved from the scaled parent: {:.3} m at most, at x {:.2} z {:.2}; RMS {:.3} m.",
@@ -113,33 +121,6 @@ fn how(outputs: &DeriveOutputs) -> Vec<String> {
         ));
     }
     lines
-}
-
-/// R_W at each Froude number, and what other weights come to.
-fn waves(page: &mut String, waves: &WaveResult) {
-    let _ = writeln!(page, "{:>8}{:>16}{:>16}{:>10}", "Fn", "R_W scaled kN", "R_W kN", "change");
-    for ((number, before), after) in waves.froude_numbers.iter().zip(&waves.before).zip(&waves.after) {
-        let change = format!("{:+.1} %", 100.0 * (after / before - 1.0));
-        let [before, after] = [before, after].map(|value| fixed(1e-3 * value, 3));
-        let _ = writeln!(page, "{number:>8.4}{before:>16}{after:>16}{change:>10}");
-    }
-    page.push('\n');
-    let _ = writeln!(
-        page,
-        "{:>12}{:>12}{:>14}{:>12}{:>14}",
-        "weight m2", "mean R_W", "bending m2", "moves mm", "inflections"
-    );
-    for (k, trade) in waves.trades.iter().enumerate() {
-        let [weight, energy] = [trade.weight, trade.energy].map(|value| format!("{value:.2e}"));
-        let ratio = format!("{:+.2} %", 100.0 * (trade.ratio - 1.0));
-        let moves = fixed(1e3 * trade.moves, 1);
-        let signs = if trade.keeps_signs { "" } else { " signs not kept" };
-        let taken = format!("{}{signs}", if k == waves.taken { " <" } else { "" });
-        let _ = writeln!(page, "{weight:>12}{ratio:>12}{energy:>14}{moves:>12}{:>14}{taken}", trade.inflections);
-    }
-    page.push('\n');
-    page.push_str(&wrapped(THIN_SHIP_LIMITS, 2));
-    page.push('\n');
 }
 
 /// The page, at most 80 columns.
@@ -156,7 +137,7 @@ pub fn derive_page(outputs: &DeriveOutputs) -> String {
     }
     how(outputs).iter().for_each(|line| page.push_str(&wrapped(line, 2)));
     page.push('\n');
-    outputs.derived.waves.iter().for_each(|found| waves(&mut page, found));
+    outputs.derived.waves.iter().for_each(|found| page.push_str(&waves_page(found, ["scaled", "bending m2"])));
     page.push_str(&compare_page(&outputs.comparison));
     page
 }

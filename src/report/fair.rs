@@ -12,6 +12,7 @@ use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
 use super::source::{Overrides, is_toml, merged, read_bytes, read_table_stated, remark, ship_name, utf8};
 use super::verdict::unusual;
+use super::waves::trade_files;
 use crate::config::{self, Diagnostic, JobFile};
 use crate::exchange::{
     COMPROMISE_LINE, CurveProblem, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting,
@@ -356,6 +357,10 @@ fn refusal(request: &JobFile, lines: &[ProposedLine], table_file: &Path, error: 
             let help = "Run without it: --verbose and fairing.json list what is proposed";
             ("E180", first(&["lines.accept"]), help)
         }
+        JobError::Fair(FairError::Waves(_) | FairError::NoWaves) => {
+            let help = "Leave it out, or fair a table with a level keel, level waterlines and fewer lines";
+            ("E425", first(&["waves.froude_numbers"]), help)
+        }
         _ => {
             let place = first(dimensions_at_fault(error));
             let help = "Look at the table with `loftsman check` and `loftsman fit`";
@@ -407,6 +412,10 @@ pub fn fair_outputs_with_progress(
     figures: bool,
     progress: Progress<'_>,
 ) -> Result<FairOutputs, Failure> {
+    if job.grades && job.job.waves.is_some() {
+        let message = "--grades goes without --wave-resistance: run the grade that is wanted with it";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let mut outcome = job.job.run_telling(&job.table, progress).map_err(|error| refused(job, &error))?;
     let grades = job.grades.then(|| fair_grades::grade_files(job, &outcome, figures, progress)).transpose()?;
     // What reading the table had to guess decides the hull as much.
@@ -445,6 +454,9 @@ pub fn fair_outputs_with_progress(
         let mut record = FairRecord::new(&job.table, &outcome);
         record.name = marked_name(&record.name, compromise);
         files.extend(super::fair_figures::fair_figures(&record)?);
+        if let Some(waves) = &outcome.faired.waves {
+            files.extend(trade_files(&record.name, waves)?);
+        }
     }
     files.extend(grades.into_iter().flatten());
     files.sort_by(|a, b| a.name.cmp(&b.name));

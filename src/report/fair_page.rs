@@ -4,6 +4,7 @@ use super::fair::{FairJob, FairOutputs};
 use super::fair_held::{hydrostatics, volume_of, volumes};
 use super::fair_short::headline;
 use super::page::{WIDTH, fixed, fixed_sign, no_draught, wrapped};
+use super::waves::waves_page;
 use crate::exchange::{reached, status_word};
 use crate::fairing::outcome::{Change, Outcome};
 use crate::fairing::proposals::Proposal;
@@ -208,6 +209,7 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
         faired.iterations
     );
     page.push_str(&wrapped(&proof, 2));
+    faired.waves.iter().for_each(|waves| page.push_str(&waves_page(waves, ["fair", "energy m2"])));
     let rounding = &outputs.rounding;
     let of = if outputs.rows.is_some() { "displacement" } else { "volume" };
     let volume = match rounding.volume_share {

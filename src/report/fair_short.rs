@@ -10,6 +10,7 @@ use crate::fairing::field::line_errors::FoundErrors;
 use crate::fairing::held::Held;
 use crate::fairing::outcome::{Change, Outcome};
 use crate::qp::Status;
+use crate::resistance::WaveResult;
 use crate::units::counted;
 
 /// Change of a quantity over its scale up to which it is kept.
@@ -80,7 +81,21 @@ pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> Strin
         held(outputs),
         written(outputs, folder),
     ];
-    lines.map(|line| line + "\n").concat()
+    let waves = outcome.faired.waves.as_ref().map(waves);
+    lines.into_iter().chain(waves).map(|line| line + "\n").collect()
+}
+
+/// The wave resistance against that of the fair hull without it.
+fn waves(waves: &WaveResult) -> String {
+    let change = waves.trades.get(waves.taken).map_or(0.0, |taken| 100.0 * (taken.ratio - 1.0));
+    let numbers = match (waves.froude_numbers.first(), waves.froude_numbers.last()) {
+        (Some(first), Some(last)) if waves.froude_numbers.len() > 1 => format!("{first} to {last}"),
+        (Some(first), _) => format!("{first}"),
+        _ => String::new(),
+    };
+    format!(
+        "Wave resistance of thin ships at Fn {numbers}: {change:+.2} % of that of the fair hull without its weight."
+    )
 }
 
 /// What is given, from the table and assumed.

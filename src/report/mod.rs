@@ -46,6 +46,7 @@ mod source;
 mod staging;
 mod validate;
 mod verdict;
+mod waves;
 
 pub use blend::{BlendJob, BlendOutputs, HULL_KEYS, OfHull, blend_files, blend_outputs};
 pub use blend_page::blend_page;

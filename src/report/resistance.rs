@@ -14,8 +14,8 @@ use crate::hull::Hull;
 use crate::hydrostatics::Hydrostatics;
 use crate::plot::{ResistanceSheet, resistance_figure};
 use crate::resistance::{
-    InputOrigin, Method, Prediction, PredictionInput, PredictionRow, ShipFault, ThinShip, ViscousOverrides, limits,
-    predict,
+    InputOrigin, Method, Prediction, PredictionInput, PredictionRow, ShipFault, ShipParameters, ThinShip,
+    ViscousOverrides, limits, predict,
 };
 use crate::units::KNOT;
 
@@ -107,7 +107,7 @@ pub fn resistance_outputs(job: &ResistanceJob) -> Result<ResistanceOutputs, Fail
     speeds.sort_by(f64::total_cmp);
     let overrides = ViscousOverrides { form_factor: job.options.form_factor, allowance: job.options.allowance };
     let prediction = predict(job.method, &gathered.ship, thin.as_ref(), &speeds, &gathered.water, overrides)
-        .map_err(|faults| undefined(job, &faults))?;
+        .map_err(|faults| undefined(job, &gathered.ship, &faults))?;
     let (form_factor, allowance) = notes_on_viscous(job.method, &gathered, &prediction);
     let mut inputs = vec![between_perpendiculars(&body)];
     inputs.extend(gathered.inputs.iter().cloned());
@@ -149,11 +149,13 @@ fn thin_ship(job: &ResistanceJob, body: &HydrostaticBody, draught: f64) -> Resul
     }
 }
 
-fn undefined(job: &ResistanceJob, faults: &[ShipFault]) -> Failure {
+fn undefined(job: &ResistanceJob, ship: &ShipParameters, faults: &[ShipFault]) -> Failure {
+    let impossible = ship.impossible();
     let option = |symbol: &str| match symbol {
         "L" | "L/B" => "--lwl",
         "B" => "--breadth",
         "volume" | "C_P" => "--volume or --cm",
+        "C_B" => "--volume, --lwl or --draught",
         "S" => "--wetted-surface",
         "C_M" => "--cm",
         "C_WP" => "--cwp",
@@ -164,7 +166,11 @@ fn undefined(job: &ResistanceJob, faults: &[ShipFault]) -> Failure {
         _ => "--lcb",
     };
     let message = |fault: &ShipFault| {
-        let help = format!("State {}, or take --method michell", option(fault.symbol));
+        let help = match fault.symbol {
+            "R_T over the weight" => "Give lower speeds, or the draught and displacement of a ship".to_owned(),
+            _ if impossible.contains(fault) => format!("Correct {}", option(fault.symbol)),
+            _ => format!("State {}, or take --method michell", option(fault.symbol)),
+        };
         problem("E510", &job.hull, fault.to_string(), help)
     };
     Failure::Input(faults.iter().map(message).collect())

@@ -11,6 +11,7 @@ mod prediction;
 mod ranges;
 mod ship;
 mod water;
+mod wave_term;
 
 pub use components::{Components, Method, Viscous, power};
 pub use friction::{froude_number, ittc57, reynolds_number};
@@ -20,3 +21,4 @@ pub use prediction::{InputOrigin, Prediction, PredictionInput, PredictionRow, Vi
 pub use ranges::{Range, outside};
 pub use ship::{Appendage, AppendageKind, ShipFault, ShipParameters, SternShape};
 pub use water::{TEMPERATURES, Water, kinematic_viscosity};
+pub use wave_term::{NoWaveTerm, WaveRequest, WaveResult, WaveTerm, WaveTrade, knee};

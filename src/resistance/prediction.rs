@@ -108,6 +108,10 @@ pub fn predict(
     water: &Water,
     overrides: ViscousOverrides,
 ) -> Result<Prediction, Vec<ShipFault>> {
+    let impossible = ship.impossible();
+    if !impossible.is_empty() {
+        return Err(impossible);
+    }
     let edition = if method == Method::Holtrop1982 { Edition::Of1982 } else { Edition::Of1984 };
     let holtrop = Holtrop::new(ship, edition);
     let statistical = matches!(method, Method::Holtrop1982 | Method::Holtrop1984);
@@ -138,7 +142,13 @@ pub fn predict(
         };
         PredictionRow { outside: outside(method, components.froude, form(ship)), components }
     };
-    let rows = speeds.iter().enumerate().map(row).collect();
+    let rows: Vec<PredictionRow> = speeds.iter().enumerate().map(row).collect();
+    // Ships of displacement float at speeds where their resistance is a part of their weight.
+    let weight = water.density * water.gravity * ship.volume;
+    let beyond = rows.iter().map(|row| row.components.total() / weight).find(|part| part.is_nan() || *part > 1.0);
+    if let Some(value) = beyond {
+        return Err(vec![ShipFault { symbol: "R_T over the weight", value, limit: "no more than 1, at lower speeds" }]);
+    }
     Ok(Prediction { form_factor, allowance, rows })
 }
 

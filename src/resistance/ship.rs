@@ -127,6 +127,9 @@ pub struct Appendage {
     pub factor: f64,
 }
 
+/// Part by which areas of a body may pass those that bound them.
+const ROUNDING: f64 = 1e-9;
+
 /// Form of a ship as Holtrop and Mennen state it; lengths in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShipParameters {
@@ -175,7 +178,12 @@ pub struct ShipFault {
 
 impl fmt::Display for ShipFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} is {:.4}; the formulas need {}", self.symbol, self.value, self.limit)
+        let Self { symbol, value, limit } = self;
+        if value.abs() < 1e6 {
+            write!(f, "{symbol} is {value:.4}; the formulas need {limit}")
+        } else {
+            write!(f, "{symbol} is {value:.1e}; the formulas need {limit}")
+        }
     }
 }
 
@@ -205,6 +213,23 @@ impl ShipParameters {
     pub fn run_length(&self) -> f64 {
         let cp = self.prismatic_coefficient();
         self.length * (1.0 - cp + 0.06 * cp * self.lcb / (4.0 * cp - 1.0))
+    }
+
+    /// What no ship has, whatever the method: areas beyond the section amidships, a wetted surface below the waterplane, C_B
+    /// above 1.
+    #[must_use]
+    pub fn impossible(&self) -> Vec<ShipFault> {
+        let section = (1.0 + ROUNDING) * self.breadth * self.draught() * self.midship_coefficient;
+        let waterplane = (1.0 - ROUNDING) * self.length * self.breadth * self.waterplane_coefficient;
+        let block = self.block_coefficient();
+        let checks = [
+            ("C_B", block, block > 0.0 && block <= 1.0 + ROUNDING, "0 to 1"),
+            ("A_T", self.transom_area, self.transom_area <= section, "no more than the section amidships, B T C_M"),
+            ("A_BT", self.bulb_area, self.bulb_area <= section, "no more than the section amidships, B T C_M"),
+            ("S", self.wetted_surface, self.wetted_surface >= waterplane, "no less than the waterplane, L B C_WP"),
+        ];
+        let failed = checks.into_iter().filter(|(_, value, holds, _)| !holds || !value.is_finite());
+        failed.map(|(symbol, value, _, limit)| ShipFault { symbol, value, limit }).collect()
     }
 
     /// Everything for which the formulas of Holtrop and Mennen are not defined.

@@ -34,6 +34,12 @@ impl Water {
     pub fn new(density: f64, temperature: f64) -> Self {
         Self { density, viscosity: kinematic_viscosity(density, temperature), gravity: GRAVITY }
     }
+
+    /// Water of a density [t/m^3] for what does not depend on its viscosity: that of 15 deg C.
+    #[must_use]
+    pub fn of_density(density: f64) -> Self {
+        Self::new(1000.0 * density, 15.0)
+    }
 }
 
 /// Kinematic viscosity [m^2/s] of water that has this density [kg/m^3] at 15 deg C, at a temperature \[deg C\]: the

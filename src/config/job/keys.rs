@@ -185,6 +185,20 @@ pub const JOB_KEYS: &[Key] = &[
         "The same for lines across which the curvature breaks: edges of flats and of straight parts.",
     ),
     key(
+        "waves",
+        "froude_numbers",
+        Kind::Positions,
+        &[],
+        "Froude numbers of L_PP at which the wave resistance is made small within the tolerances, as \"0.25:0.30:0.01\". Default: none.",
+    ),
+    key(
+        "waves",
+        "weight",
+        Kind::Number,
+        &[],
+        "Weight of the wave resistance against the energy of the move, m^2. Default: the knee of seven weights.",
+    ),
+    key(
         "inflections",
         "cost",
         Kind::Number,

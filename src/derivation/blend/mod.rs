@@ -328,6 +328,15 @@ impl Blending<'_> {
                 (quantity, false) if quantity.unit() == "-" => (quantity.key(), String::new()),
                 (quantity, false) => (quantity.key(), format!(" {}", quantity.unit())),
             };
+            if interval.high - interval.low <= 2e-5 * interval.high.abs().max(1.0) {
+                let message = format!(
+                    "{name} is {:.5}{unit} whatever the weights and dimensions that are free, and {value:.5} is wanted",
+                    interval.low
+                );
+                let remedy = "Leave it out, or add a hull: the dimensions that are free do not change it".to_owned();
+                refused.push(Refusal::new("E420", vec![target.quantity.word()], message, remedy));
+                continue;
+            }
             // Rounded to the inside, so that the ends are feasible.
             let [low, high] = [(1e5 * interval.low).ceil() / 1e5, (1e5 * interval.high).floor() / 1e5];
             let nearest = value.clamp(low.min(high), high.max(low));

@@ -294,7 +294,7 @@ impl Blending<'_> {
         let rest = Blending { quantities: others, ..*self };
         let ends = [1.0, -1.0].map(|way| rest.extreme(quantity, way));
         let [Some(low), Some(high)] = ends else { return None };
-        Some(Interval { quantity, low: low.min(high), high: low.max(high) })
+        Some(Interval { quantity, low: low.min(high), high: low.max(high), keeps_signs: true })
     }
 
     /// The least value of a quantity, or the greatest for a `way` of -1, by successive linear programs.

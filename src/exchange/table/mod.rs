@@ -10,6 +10,7 @@ mod around;
 mod assemble;
 mod blanks;
 mod boat;
+mod boat_rows;
 mod body;
 mod bottom;
 mod britfair;

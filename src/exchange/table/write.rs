@@ -5,6 +5,7 @@
 //! becomes a matrix; sections of points keep the format of their program, or become a tidy table.
 
 use super::around::says_full;
+use super::boat_rows;
 use super::header::{side_name, unit_of};
 use super::tidy;
 use crate::hull::{
@@ -121,6 +122,11 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
     {
         return written;
     }
+    if let (None, None, false) = (writing.layout, writing.notation, form.boat_lines.is_empty())
+        && let Some(written) = boat_table(table)
+    {
+        return written;
+    }
     let layout = match writing.layout.unwrap_or(form.layout) {
         TableLayout::Tidy => TableLayout::Tidy,
         // A matrix has no place for points.
@@ -189,10 +195,23 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
     let own = !renotated && (form.full_breadths, form.negative) == (table.form.full_breadths, table.form.negative);
     let mut writer = Writer { form, own, rounding: Rounding::default(), squares: 0.0 };
     let records = if layout == TableLayout::Tidy { tidy::records(table, &mut writer) } else { writer.matrix(table) };
-    let text = writer.text(&records);
-    let mut rounding = writer.rounding;
-    rounding.root_mean_square = (writer.squares / (rounding.cells.max(1)) as f64).sqrt();
-    WrittenTable { text, rounding }
+    writer.table(&records)
+}
+
+/// A table of lines of a boat as it was read; none where its sections have other points than its lines.
+fn boat_table(table: &OffsetTable) -> Option<WrittenTable> {
+    let mut form = table.form.clone();
+    let own = !form.full_breadths && !form.negative;
+    (form.full_breadths, form.negative) = (false, false);
+    let says = |line: &String| line.trim_start_matches('#').trim_start().starts_with("units");
+    if form.notation != Notation::FeetInchesEighths && !form.preamble.iter().any(says) {
+        form.preamble.push(format!("# units = {}", form.notation.as_str()));
+    }
+    let stated: Vec<String> = stated_lines(table).into_iter().filter(|line| !form.preamble.contains(line)).collect();
+    form.preamble.splice(0..0, stated);
+    let mut writer = Writer { form, own, rounding: Rounding::default(), squares: 0.0 };
+    let records = boat_rows::records(table, &mut writer)?;
+    Some(writer.table(&records))
 }
 
 /// What says that there is no hull, where a blank cell would be read as an offset that is missing.
@@ -461,6 +480,13 @@ impl Writer {
             records.push(row);
         }
         if self.form.rows == Rows::Waterlines { transposed(&records) } else { records }
+    }
+
+    /// The file of the records, with what rounding did.
+    fn table(&self, records: &[Vec<String>]) -> WrittenTable {
+        let mut rounding = self.rounding;
+        rounding.root_mean_square = (self.squares / (rounding.cells.max(1)) as f64).sqrt();
+        WrittenTable { text: self.text(records), rounding }
     }
 
     /// The file of the records.

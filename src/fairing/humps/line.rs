@@ -47,6 +47,11 @@ pub(super) fn inflections(humps: &[Hump]) -> usize {
     humps.len().saturating_sub(1)
 }
 
+/// Inflections of a net along a line that depart from their chords by `seen` \[m\] at least.
+pub(super) fn counted(bends: &[Bend], net: &[f64], seen: f64) -> usize {
+    inflections(&humps(bends, &vec![0.0; bends.len()], net, 1.0, seen))
+}
+
 /// Marks the humps that those before have none of the same sign for.
 pub(super) fn mark_new(humps: &mut [Hump], before: &[Hump]) {
     for hump in humps {
@@ -123,7 +128,7 @@ impl Asked {
 
     /// Those of a net.
     pub(super) fn counted(&self, net: &[f64], seen: f64) -> usize {
-        inflections(&humps(&self.bends, &vec![0.0; self.bends.len()], net, 1.0, seen))
+        counted(&self.bends, net, seen)
     }
 
     /// The limits of the places that have a sign, but for those about an inflection. A place whose curvature has not the

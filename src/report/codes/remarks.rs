@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 40] = [
+pub(super) const REMARKS: [Explanation; 42] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -244,6 +244,22 @@ pub(super) const REMARKS: [Explanation; 40] = [
          profiles that lie elsewhere are rounded there.",
         example: "`W421 barge/hull.json: Barge moves by 31.2 mm at most on its way to the chart of Coaster`.",
         remedy: "Blend hulls whose profiles and knuckles are alike, and look at the figures.",
+    },
+    Explanation {
+        code: "W422",
+        title: "Daughter of another breadth",
+        cause: "The waterline of the hull that `derive` made is more than a thousandth of B broader or narrower than that of its \
+         scaled parent. Coefficients refer to the B that is printed.",
+        example: "`loftsman derive configs/tug.toml --parallel-body 12,16` has 8.58 m for 9.00 m.",
+        remedy: "Give a shorter parallel body, more displacement or a larger midship coefficient, or state the B that is wanted.",
+    },
+    Explanation {
+        code: "W423",
+        title: "Parallel middle body that is lost",
+        cause: "The scaled parent of `derive` has sections that are alike amidships. With the targets no such body of half its length \
+         is left.",
+        example: "`loftsman derive tanker/hull.json --cb 0.70` of a tanker with a C_B of 0.80.",
+        remedy: "Give targets nearer to the parent, or state the body that is wanted with `--parallel-body`.",
     },
     Explanation {
         code: "W510",
