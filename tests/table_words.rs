@@ -208,11 +208,13 @@ fn titles_state_main_dimensions_and_spacings() {
     // A bare length may be the length overall.
     let table = read(&format!("Length: 105 m\n{}", stations("x [m]", |x| x.to_string())), "").unwrap().table;
     assert_eq!(table.stated.length_between_perpendiculars, None);
-    same(&stations("Station (ft from AP)", |x| (x / 0.3048).to_string()), "[table]\nunits = \"m\"\nx_units = \"ft\"\n");
-    // No ship has 100 000 frames.
+    same(&stations("Station (ft from AP)", |x| (x / 0.3048).to_string()), "[table]\nunits = \"m\"\n");
     let millimetres = |z: f64| format!("{}", 1000.0 * z);
+    let whole = |y: f64| format!("{:.0}", 1000.0 * y);
+    same(&matrix("Station (m from AP)", &distances(), &columns(millimetres), whole), "");
+    // No ship has 100 000 frames.
     let heads: Vec<String> = (0..21).map(|k| (5000 * k).to_string()).collect();
-    let text = matrix("St.", &heads, &columns(millimetres), |y| format!("{:.0}", 1000.0 * y));
+    let text = matrix("St.", &heads, &columns(millimetres), whole);
     same(&text, "[table]\nunits = \"mm\"\n");
     let full = matrix("x [m]", &distances(), &columns(|z| format!("{z} m")), |y| metres(2.0 * y));
     same(&format!("Breadths (full) in metres\n{full}"), "");

@@ -28,9 +28,9 @@ fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 pub(super) fn far(table: &OffsetTable, problems: &mut Problems) {
     let stations = range(table.stations.iter().map(|s| s.station.x));
     let waterlines = range(table.waterlines.iter().copied());
-    let ends = |end: usize| table.endings.iter().filter_map(move |ends| ends[end]).collect();
-    let edge = |of: fn(&StationOffsets) -> Option<f64>| table.stations.iter().filter_map(of).collect();
-    let lines: [(&str, &str, Option<[f64; 2]>, f64, Vec<f64>); 6] = [
+    let ends = |end: usize| -> Vec<f64> { table.endings.iter().filter_map(move |ends| ends[end]).collect() };
+    let edge = |of: fn(&StationOffsets) -> Option<f64>| -> Vec<f64> { table.stations.iter().filter_map(of).collect() };
+    let lines = [
         ("stern", "stations", stations, BEYOND[0], ends(0)),
         ("stem", "stations", stations, BEYOND[0], ends(1)),
         ("keel", "waterlines", waterlines, BEYOND[1], edge(|s| s.keel_height)),

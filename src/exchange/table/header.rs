@@ -105,11 +105,11 @@ pub(super) fn axis_of(text: &str) -> Option<Axis> {
     })
 }
 
-/// The unit in `ft from AP`, `m above base`.
-fn unit_before(text: &str) -> Option<Notation> {
-    let (unit, rest) = text.trim().split_once(' ')?;
+/// The unit of positions alone in `Station (ft from AP)`.
+fn unit_of_positions(text: &str) -> Option<Notation> {
+    let (unit, rest) = text.split_once(['(', '['])?.1.trim_start().split_once(' ')?;
     let word = rest.split_whitespace().next()?.to_lowercase();
-    let is_from = matches!(word.as_str(), "from" | "above" | "below" | "aft" | "abaft" | "fwd" | "forward" | "of");
+    let is_from = matches!(word.as_str(), "from" | "aft" | "abaft" | "fwd" | "forward");
     is_from.then(|| Notation::from_word(unit)).flatten()
 }
 
@@ -118,7 +118,7 @@ pub(super) fn unit_of(text: &str) -> Option<Notation> {
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((_, after)) = text.split_once(open)
             && let Some((inside, _)) = after.split_once(close)
-            && let Some(unit) = Notation::from_word(inside).or_else(|| unit_before(inside))
+            && let Some(unit) = Notation::from_word(inside)
         {
             return Some(unit);
         }
@@ -133,6 +133,8 @@ pub(super) struct Corner {
     pub(super) rows: Option<Axis>,
     pub(super) columns: Option<Axis>,
     pub(super) unit: Option<Notation>,
+    /// The unit of the distances of stations alone.
+    pub(super) x_unit: Option<Notation>,
     /// Positions from midship or from FP, as the words say.
     pub(super) from: Option<From>,
     /// Whether distances from midship are positive aft.
@@ -218,7 +220,8 @@ impl Corner {
         let aft = rows.is_some_and(Axis::is_station) && words(bare).len() == 2 && words(bare)[1] == "aft";
         let from = From::of(text).or(behind).or(aft.then_some(From::ForePerpendicular));
         let aftward = is_aftward(&lower);
-        Self { rows, columns, unit, from, aftward, spaces: spaces.filter(|&n: &f64| n > 0.0) }
+        let x_unit = unit_of_positions(text).filter(|_| rows.is_some_and(Axis::is_station));
+        Self { rows, columns, unit, x_unit, from, aftward, spaces: spaces.filter(|&n: &f64| n > 0.0) }
     }
 }
 

@@ -172,20 +172,20 @@ pub(super) fn origin(
     let corner = Corner { from: corner.from.or(end.map(|(from, _)| *from)), ..corner };
     let scale = stated.unwrap_or_else(|| {
         let are_numbers = match says {
-            Some(Axis::Station) if corner.unit.is_none() && high - low <= MOST_NUMBERS => true,
+            Some(Axis::Station) if corner.unit.or(corner.x_unit).is_none() && high - low <= MOST_NUMBERS => true,
             Some(Axis::X) => false,
             _ if 2 * named > heads.len() && high - low <= MOST_NUMBERS => true,
             // Without words, or with a unit beside them: a hull that would be shorter than it is broad counts its
             // stations.
             _ => {
-                let length = corner.unit.map_or(high - low, |unit| unit.metres(high - low));
+                let length = corner.x_unit.or(corner.unit).map_or(high - low, |unit| unit.metres(high - low));
                 numbers.len() > 1 && length < 2.0 * breadths.largest
             }
         };
         let are_numbers = are_numbers || shows_numbers(&heads, length);
         StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers: are_numbers }
     });
-    let is_stated = stated.is_some() || settings.units.or(settings.x_units).or(corner.unit).is_some();
+    let is_stated = stated.is_some() || settings.units.or(settings.x_units).or(corner.unit).or(corner.x_unit).is_some();
     let is_short = high - low < 2.0 * SHORT * breadths.largest;
     if !scale.numbers && !is_stated && says != Some(Axis::X) && is_short && counts(&numbers, [low, high]) {
         let message = format!(

@@ -121,7 +121,7 @@ pub(super) fn units(
         unit
     };
     let z = positions("height", settings.z_units.or(corner.unit.filter(|_| both)), z, LARGEST_HEIGHT, USUAL_HEIGHT);
-    let own = settings.x_units.or(corner.unit);
+    let own = settings.x_units.or(corner.x_unit).or(corner.unit);
     let x = if stations_are_numbers {
         own.unwrap_or(offsets)
     } else {
