@@ -186,7 +186,7 @@ fn titles_stand_below_each_other() {
     same(&format!("M.V. ANNA\nTable of offsets\nMoulded\n{table}"), "");
     let blanks: String = table.replace(" m", "m").replace("x [m]", "x").replace(',', "   ");
     let mut ruled = "OFFSETS OF ANNA (METRES)\n-------------------\n".to_owned();
-    write!(ruled, "{blanks}-------------------\n").unwrap();
+    writeln!(ruled, "{blanks}-------------------").unwrap();
     same(&ruled, "");
 }
 
