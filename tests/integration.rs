@@ -74,6 +74,7 @@ mod table_files;
 mod table_layouts;
 mod table_reading;
 mod table_sections;
+mod table_words;
 mod text_formats;
 mod truth;
 mod truth_draws;

@@ -317,7 +317,10 @@ fn warnings_and_notes() {
     among(&notes(&metric([0, 10, 20]), ""), &["W320", "stations are numbered"]);
     among(&notes("x_from_midship_m,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "x is 0 at midship"]);
     among(&notes("x_from_midship_m,0.5,1\n-2,1,2\n-1,1,2\n2,2,3\n", ""), &["W320", "AP and FP, 4 m apart"]);
-    among(&notes("x_from_FP_m,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "negative aft of it"]);
+    among(
+        &notes("x_from_FP_m,0.5,1\n0,1,2\n1,2,3\n", ""),
+        &["W320", "the aftermost station, 1 m aft of FP, is taken as AP"],
+    );
     among(&notes("x_from_FP_m,0.5,1\n0,1,2\n1,2,3\n", "[table]\nLpp = 5"), &["N321", "FP, which is 5 m forward"]);
     among(&notes("station,0.5,1\n0,1,2\n20,2,3\n", "[table]\nLpp = 50\n"), &["20 spaces in L_PP of 50 m"]);
     among(

@@ -1,6 +1,6 @@
 //! What stands around a table of offsets says about it: its name, main dimensions, units, and full breadths.
 
-use super::header::{Corner, axis_of, counts_down, plain_number, side_of, unit_of};
+use super::header::{Corner, axis_of, counts_down, counts_from_waterline, plain_number, side_of, unit_of};
 use super::long::{HALF_OR_FULL, half_taken};
 use super::pieces::{Piece, Pieces};
 use super::problem::{FilePosition, Problems};
@@ -42,7 +42,10 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
     }
     for text in texts().filter(|text| text.row > 0 && !text.text.starts_with('#')) {
         settings.prose(text.trimmed());
+        settings.dimensions(text.trimmed(), problems);
     }
+    let levels = texts().chain(corner).map(|text| text.trimmed()).find(|text| counts_from_waterline(text));
+    settings.from_waterline = levels.map(str::to_owned);
     let says_half = corner.is_some_and(|text| text.text.to_lowercase().contains("half"));
     let titles = texts().filter(|text| says_breadths(&text.text, false));
     let heads = heads.into_iter().flatten().skip(1).filter(|text| names_breadths(&text.text));
@@ -89,9 +92,14 @@ fn unit_of_breadths(text: &str) -> Option<Notation> {
 
 /// Whether words say that breadths are full.
 pub(super) fn says_full(text: &str) -> bool {
-    let lower = text.to_lowercase().replace(['-', '_'], " ");
-    !lower.contains("half")
-        && ["full breadth", "full beam", "full width", "whole breadth"].iter().any(|words| lower.contains(words))
+    let lower = text.to_lowercase();
+    let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
+    let is_full = |word: &str| matches!(word, "full" | "whole");
+    let is_breadth = |word: &str| matches!(word.trim_end_matches('s'), "breadth" | "beam" | "width");
+    // `Breadths (full)` too, and not `Beam, full load`.
+    let behind = |k: usize| is_breadth(words[k]) && is_full(words[k + 1]) && words.get(k + 2) != Some(&"load");
+    let says = |k: usize| is_full(words[k]) && is_breadth(words[k + 1]) || behind(k);
+    !lower.contains("half") && (0..words.len().saturating_sub(1)).any(says)
 }
 
 /// Comments that say what the row of units did, which is not written back.

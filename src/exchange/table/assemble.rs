@@ -2,10 +2,11 @@
 
 use super::checks;
 use super::grid::MOST_LINES;
-use super::header::{Axis, Coordinate, Corner, Position, position};
+use super::header::{Axis, Coordinate, Corner, From, Position, positions, unit_of};
+use super::heights;
 use super::matrix::{Block, MatrixRow};
 use super::numbering::{Breadths, origin};
-use super::problem::{Field, FilePosition, Problems};
+use super::problem::{Field, Problems};
 use super::scale::{Size, Units, ends_from_midship, units};
 use super::settings::Settings;
 use crate::hull::{
@@ -26,6 +27,8 @@ pub(super) struct TableReader<'a> {
     pub(super) problems: &'a mut Problems,
     /// Length between perpendiculars, where it is known \[m\].
     pub(super) length: Option<f64>,
+    /// Height above the base line of the plane from which heights count \[m\].
+    datum: f64,
     /// How often offsets have so many digits after the decimal sign; more than the last count as the last.
     digits: [usize; 18],
     /// Offsets as plain numbers, and in feet, inches and eighths.
@@ -37,7 +40,7 @@ impl<'a> TableReader<'a> {
         (form.notation, form.x_notation, form.z_notation) = (units.y, units.x, units.z);
         form.full_breadths = settings.full.unwrap_or(false);
         let length = settings.stated.length_between_perpendiculars;
-        Self { settings, form, units, problems, length, digits: [0; 18], writings: [0; 2] }
+        Self { settings, form, units, problems, length, datum: 0.0, digits: [0; 18], writings: [0; 2] }
     }
 
     fn reading(&mut self, field: &Field, unit: Notation) -> Option<CellReading> {
@@ -109,11 +112,16 @@ impl<'a> TableReader<'a> {
 
     /// A position across the stations \[m\].
     pub(super) fn across(&self, position: Position) -> f64 {
+        self.across_by(position, self.settings.waterline_spacing)
+    }
+
+    /// The same with the spacing of numbered waterlines \[m\].
+    fn across_by(&self, position: Position, spacing: Option<f64>) -> f64 {
         match position.place {
-            Coordinate::Number(number) => self.units.z.metres(match self.settings.waterline_spacing {
-                Some(spacing) if position.named => return number * spacing,
-                _ => number,
-            }),
+            Coordinate::Number(number) => match spacing {
+                Some(spacing) if position.named => number * spacing,
+                _ => self.units.z.metres(number),
+            },
             Coordinate::Length(length) => length,
             Coordinate::AftPerpendicular | Coordinate::ForePerpendicular | Coordinate::Midship => 0.0,
         }
@@ -138,8 +146,9 @@ impl<'a> TableReader<'a> {
     /// Positions of fields; a field that names none is an error, and none is returned then.
     fn positions(&mut self, fields: &[Field], what: &str) -> Option<Vec<Position>> {
         let mut list = Vec::with_capacity(fields.len());
-        for field in fields {
-            match position(field.trimmed(), self.form.decimal_comma) {
+        let found = positions(fields.iter().map(Field::trimmed), self.form.decimal_comma);
+        for (field, found) in fields.iter().zip(found) {
+            match found {
                 Ok(position) => list.push(position),
                 Err(error) => {
                     let message = format!("the header of a {what} names no position: {error}");
@@ -238,7 +247,7 @@ pub(super) fn assemble(
     let corner = Corner::of(first.corner.trimmed());
     let comma = form.decimal_comma;
     let unread = |fields: &mut dyn Iterator<Item = &Field>| -> Vec<Position> {
-        fields.filter_map(|f| position(f.trimmed(), comma).ok()).collect()
+        positions(fields.map(Field::trimmed), comma).into_iter().flatten().collect()
     };
     let breadths = || blocks.iter().filter(|b| b.across == Axis::Waterline);
     let y = Size::of(breadths().flat_map(|b| &b.stations).flat_map(|line| &line.cells), comma);
@@ -266,7 +275,9 @@ pub(super) fn assemble(
     let units = units(settings, corner, sizes, origin.numbers, problems);
     let datum = ends_from_midship(origin.datum, settings, &stations, units.x, problems);
     let mut reader = TableReader::new(settings, TableForm { origin: datum, ..form }, units, problems);
-    reader.length = reader.length.or(origin.length);
+    reader.length = reader.length.or(origin.length).or(between(origin.datum.open, datum));
+    reader.datum = heights::level(&blocks, settings, reader.problems);
+    let is_shifted = reader.datum.abs() > 0.0;
     let mut table = OffsetTable::default();
     for block in blocks {
         let Some(placed) = place(&block, &mut reader) else {
@@ -282,7 +293,19 @@ pub(super) fn assemble(
     }
     checks::signs(&mut table, &mut reader);
     table.form = reader.finish();
+    if is_shifted {
+        // What is written from now on counts from the base line.
+        table.form = heights::above_base(std::mem::take(&mut table.form));
+        table.stations.iter_mut().flat_map(|s| &mut s.heights).for_each(|cell| cell.written = None);
+    }
     Some(table)
+}
+
+/// Distance between the perpendiculars \[m\] as distances from `open` were placed; none where they count from AP.
+fn between(open: Option<From>, datum: StationDatum) -> Option<f64> {
+    let StationDatum::Shifted { offset, .. } = datum else { return None };
+    let length = if open? == From::Midship { 2.0 * offset } else { offset };
+    (length > 0.0).then_some(length)
 }
 
 /// Reads the cells of a block that has no place in a table, for what is wrong with them.
@@ -317,20 +340,13 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     let heads = reader.positions(&block.heads, what);
     let stations = reader.positions(&lines, "station");
     let (mut heads, stations) = (heads?, stations?);
-    if reader.settings.waterline_spacing.is_some() && names_waterlines(block.corner.trimmed()) {
+    if heights::names_waterlines(block.corner.trimmed()) {
         heads.iter_mut().for_each(|head| head.named = true);
     }
-    if block.across == Axis::Waterline && are_numbered(block, &heads, reader.settings) {
-        let message = format!(
-            "waterlines are numbered, '{}' to '{}', and their spacing is not known: taken as 1 {} apart",
-            block.heads[0].trimmed(),
-            block.heads[heads.len() - 1].trimmed(),
-            reader.units.z.as_str()
-        );
-        let remedy = "Give waterline_spacing in the conventions, or heights with their unit";
-        reader.problems.warning("W320", FilePosition::FILE, message, remedy);
-    }
-    let across: Vec<f64> = heads.into_iter().map(|p| reader.across(p)).collect();
+    let is_breadths = block.across == Axis::Waterline;
+    let spacing = if is_breadths { heights::spacing(block, &heads, reader) } else { reader.settings.waterline_spacing };
+    let datum = if is_breadths { reader.datum } else { 0.0 };
+    let across: Vec<f64> = heads.into_iter().map(|p| datum + reader.across_by(p, spacing)).collect();
     let xs: Vec<f64> = stations.into_iter().map(|p| reader.along(p)).collect();
     let mut good = true;
     for (field, &value) in block.heads.iter().zip(&across).chain(lines.iter().zip(&xs)) {
@@ -342,46 +358,6 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     let across_order = order(&across, &block.heads, what, reader.problems);
     let station_order = order(&xs, &lines, "station", reader.problems);
     Some(Placed { xs, across, station_order: station_order?, across_order: across_order? })
-}
-
-/// Fewer whole numbers among waterlines are no numbers where others have decimals.
-const LEAST_WHOLE: usize = 4;
-
-/// Whether the waterlines have numbers, as WL 0, WL 1/2, WL 1, WL 2, and nothing says how far apart they are. What is written
-/// with a decimal sign or with a unit is a height.
-fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool {
-    let corner = Corner::of(block.corner.trimmed());
-    let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
-    if settings.waterline_spacing.or(settings.z_units.map(|_| 1.0)).is_some() || corner.unit.is_some() && of_heights {
-        return false;
-    }
-    let named = heads.iter().filter(|head| head.named).count();
-    let by_corner = names_waterlines(block.corner.trimmed());
-    // Halves may be written with a decimal sign, whole numbers are not.
-    let count = |(head, field): (&Position, &Field)| match head.place {
-        Coordinate::Number(number) => {
-            (4.0 * number).fract().abs() < 1e-9 && (!is_decimal(field.trimmed()) || number.fract().abs() > 1e-9)
-        }
-        _ => false,
-    };
-    let whole = block.heads.iter().filter(|field| !is_decimal(field.trimmed())).count();
-    let named = by_corner || 2 * named > heads.len();
-    let mostly = whole == heads.len() || whole >= LEAST_WHOLE && 2 * whole > heads.len();
-    heads.len() > 2 && named && mostly && heads.iter().zip(&block.heads).all(count)
-}
-
-/// Whether a corner says of its columns that they are waterlines, and not heights.
-fn names_waterlines(corner: &str) -> bool {
-    let after = corner.split_once(['\\', '/']).map_or(corner, |(_, after)| after);
-    after
-        .split(|c: char| !c.is_alphabetic())
-        .any(|word| ["wl", "wls", "waterline", "waterlines"].contains(&word.to_lowercase().as_str()))
-}
-
-/// Whether the number of a header has a decimal sign between two digits.
-fn is_decimal(text: &str) -> bool {
-    let bytes = text.as_bytes();
-    bytes.windows(2).any(|pair| matches!(pair[0], b'.' | b',') && pair[1].is_ascii_digit())
 }
 
 /// Puts a block into the table.
@@ -417,17 +393,20 @@ fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut Ta
     for (line, x) in lines.iter().zip(&xs) {
         // The second block gives the same stations, perhaps fewer.
         let at = table.stations.iter().position(|s| (s.station.x - x).abs() < SAME);
-        let cells = line.cells.iter().map(|field| reader.cell(field, half)).collect();
+        let mut cells: Vec<Cell> = line.cells.iter().map(|field| reader.cell(field, half)).collect();
+        if let (false, datum) = (half, reader.datum) {
+            cells.iter_mut().for_each(|cell| heights::raise(&mut cell.entry, datum));
+        }
         let cells: Vec<Cell> = rising(cells, placed.across_order);
         let mut sides = Vec::new();
         for (side, field) in block.sides.iter().zip(&line.sides) {
-            let unit = match side.kind {
-                SideKind::FlatOfBottom | SideKind::DeckHalfBreadth => reader.units.y,
-                _ => reader.units.z,
-            };
-            let full = unit == reader.units.y && reader.form.full_breadths;
             let is_breadth = matches!(side.kind, SideKind::FlatOfBottom | SideKind::DeckHalfBreadth);
-            let value = reader.length(field, unit).map(|v| if full && is_breadth { 0.5 * v } else { v });
+            let unit = unit_of(side.head.trimmed()).unwrap_or(if is_breadth { reader.units.y } else { reader.units.z });
+            let value = reader.length(field, unit).map(|value| match is_breadth {
+                true if reader.form.full_breadths => 0.5 * value,
+                true => value,
+                false => value + reader.datum,
+            });
             sides.push((side.kind, value, field.trimmed().to_owned()));
         }
         let Some(at) = at else {
@@ -487,7 +466,7 @@ fn endings(
         let end = usize::from(*kind == SideKind::Stem);
         let mut texts = Vec::with_capacity(fields.len());
         for (ends, field) in ends.iter_mut().zip(&fields) {
-            let unit = reader.units.x;
+            let unit = unit_of(line.head.trimmed()).unwrap_or(reader.units.x);
             // Endings are lengths even where stations are numbered.
             let value = reader.length(field, unit).map(|v| match reader.form.origin {
                 StationDatum::Shifted { offset, sign } => offset + sign * v,

@@ -313,6 +313,11 @@ fn size(table: &OffsetTable, problems: &mut Problems) {
         ("half-breadth", half, LARGEST_HALF_BREADTH),
         ("height", high - low, LARGEST_HEIGHT),
     ];
+    if low < -OFF_BASE * (high - low) && points().next().is_none() {
+        let message = format!("the lowest waterline is at z = {low:.3} m, and draughts, C_B and KB count from z = 0");
+        let remedy = "Give heights above the base line, or write 'Heights above LWL' over the table and state T";
+        problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
     let mut good = true;
     for (what, found, most) in sizes.into_iter().filter(|(_, found, most)| found > most) {
         let message = format!("the hull would have a {what} of {found:.0} m, and no ship has one above {most} m");

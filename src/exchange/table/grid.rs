@@ -118,12 +118,10 @@ pub(super) fn split(text: &str, separator: Option<char>, problems: &mut Problems
     } else {
         split_at_separators(text, &mut grid, problems)?;
     }
-    if separator == '|' {
-        // Rules below the headers of text tables.
-        let is_rule = |field: &Field| field.trimmed().chars().all(|c| matches!(c, '-' | ':' | '=' | '+'));
-        let rules = |row: &Vec<Field>| row.iter().all(is_rule) && row.iter().any(|field| field.trimmed().len() > 2);
-        grid.rows.iter_mut().filter(|row| rules(row)).for_each(Vec::clear);
-    }
+    // Rules below titles and headers of text tables.
+    let is_rule = |field: &Field| field.trimmed().chars().all(|c| matches!(c, '-' | ':' | '=' | '+' | '_' | '*' | '~'));
+    let rules = |row: &Vec<Field>| row.iter().all(is_rule) && row.iter().any(|field| field.trimmed().len() > 2);
+    grid.rows.iter_mut().filter(|row| rules(row)).for_each(Vec::clear);
     header_of_comment(&mut grid);
     Some(grid)
 }

@@ -4,7 +4,12 @@
 //! `z = 1.5`, `STN 1 1/2`, `station 7 @ 14.7 m`, `wl0.75`, `3. WL`, `AP`, `FP`, `20 (FP)`, and the base line `BL` among
 //! waterlines.
 
-use crate::hull::SideKind;
+mod names;
+
+pub(super) use names::{
+    SIDES, counts_down, counts_from_waterline, has_area_unit, is_aftward, is_area_unit, is_deck, side_name, side_of,
+};
+
 use crate::units::{Dimension, Notation, UnitError, parse};
 
 /// What a header is about.
@@ -100,6 +105,14 @@ pub(super) fn axis_of(text: &str) -> Option<Axis> {
     })
 }
 
+/// The unit of positions alone in `Station (ft from AP)`.
+fn unit_of_positions(text: &str) -> Option<Notation> {
+    let (unit, rest) = text.split_once(['(', '['])?.1.trim_start().split_once(' ')?;
+    let word = rest.split_whitespace().next()?.to_lowercase();
+    let is_from = matches!(word.as_str(), "from" | "aft" | "abaft" | "fwd" | "forward");
+    is_from.then(|| Notation::from_word(unit)).flatten()
+}
+
 /// The unit that a header declares: in brackets, or as its last word after a low line (`x_from_AP_m`).
 pub(super) fn unit_of(text: &str) -> Option<Notation> {
     for (open, close) in [('[', ']'), ('(', ')')] {
@@ -114,113 +127,14 @@ pub(super) fn unit_of(text: &str) -> Option<Notation> {
     (!before.is_empty()).then(|| Notation::from_word(last)).flatten()
 }
 
-/// Names of side columns and rows; the first of each kind is the one that we write.
-pub(super) const SIDES: [(&str, SideKind); 54] = [
-    ("keel", SideKind::Keel),
-    ("z keel", SideKind::Keel),
-    ("keel height", SideKind::Keel),
-    ("height of keel", SideKind::Keel),
-    ("keel line", SideKind::Keel),
-    ("rabbet", SideKind::Keel),
-    ("z min", SideKind::Keel),
-    ("flat of bottom", SideKind::FlatOfBottom),
-    ("flat bottom", SideKind::FlatOfBottom),
-    ("fob", SideKind::FlatOfBottom),
-    ("half siding", SideKind::FlatOfBottom),
-    ("flat of side", SideKind::FlatOfSide),
-    ("flat side", SideKind::FlatOfSide),
-    ("fos", SideKind::FlatOfSide),
-    ("deck at side", SideKind::DeckHeight),
-    ("z top", SideKind::DeckHeight),
-    ("z deck", SideKind::DeckHeight),
-    ("deck height", SideKind::DeckHeight),
-    ("height of deck", SideKind::DeckHeight),
-    ("sheer", SideKind::DeckHeight),
-    ("sheer height", SideKind::DeckHeight),
-    ("sheer ht", SideKind::DeckHeight),
-    ("deck ht", SideKind::DeckHeight),
-    ("height of sheer", SideKind::DeckHeight),
-    ("deck at side height", SideKind::DeckHeight),
-    ("height of deck at side", SideKind::DeckHeight),
-    ("z max", SideKind::DeckHeight),
-    ("half breadth at deck", SideKind::DeckHalfBreadth),
-    ("y deck", SideKind::DeckHalfBreadth),
-    ("sheer hb", SideKind::DeckHalfBreadth),
-    ("deck hb", SideKind::DeckHalfBreadth),
-    ("deck half breadth", SideKind::DeckHalfBreadth),
-    ("deck centre", SideKind::DeckCentreHeight),
-    ("deck center", SideKind::DeckCentreHeight),
-    ("deck at centre", SideKind::DeckCentreHeight),
-    ("deck at center", SideKind::DeckCentreHeight),
-    ("stern", SideKind::Stern),
-    ("x stern", SideKind::Stern),
-    ("stern profile", SideKind::Stern),
-    ("aft end", SideKind::Stern),
-    ("stern contour", SideKind::Stern),
-    ("contour of stern", SideKind::Stern),
-    ("profile of stern", SideKind::Stern),
-    ("aft contour", SideKind::Stern),
-    ("stem", SideKind::Stem),
-    ("x stem", SideKind::Stem),
-    ("stem profile", SideKind::Stem),
-    ("fore end", SideKind::Stem),
-    ("stem contour", SideKind::Stem),
-    ("contour of stem", SideKind::Stem),
-    ("profile of stem", SideKind::Stem),
-    ("bow contour", SideKind::Stem),
-    ("bow profile", SideKind::Stem),
-    ("fore contour", SideKind::Stem),
-];
-
-/// The side column or row that a header names.
-pub(super) fn side_of(text: &str) -> Option<SideKind> {
-    let mut words = words(text);
-    if words.len() > 1 && words.last().is_some_and(|last| Notation::from_word(last).is_some()) {
-        words.pop();
-    }
-    let name = words.join(" ");
-    if text.bytes().any(|b| b.is_ascii_digit()) {
-        return None;
-    }
-    SIDES.iter().find(|(known, _)| *known == name).map(|(_, kind)| *kind)
-}
-
-/// The header that we write over a side column.
-pub(super) fn side_name(kind: SideKind) -> &'static str {
-    if kind == SideKind::DeckHalfBreadth {
-        // With the hyphen that the words leave out.
-        return "half-breadth at deck";
-    }
-    SIDES.iter().find(|(_, k)| *k == kind).map_or("name", |(name, _)| name)
-}
-
-/// Whether words say that heights count downward: `depth below DWL`, `z down`. What stands in brackets does not count.
-pub(super) fn counts_down(text: &str) -> bool {
-    let mut depth = 0_usize;
-    let outside = |c: &char| {
-        match c {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth = depth.saturating_sub(1),
-            _ => return depth == 0,
-        }
-        false
-    };
-    let bare: String = text.chars().filter(outside).collect();
-    let words = words(&bare);
-    let is_height = |word: &str| matches!(word, "depth" | "depths" | "height" | "heights" | "z");
-    let is_down = |word: &str| matches!(word, "below" | "under" | "beneath" | "down" | "downward" | "downwards");
-    // `x \ below deck` too: below behind the bar.
-    let behind = bare.split_once(['\\', '/']).and_then(|(_, after)| after.split_whitespace().next());
-    words.windows(2).any(|pair| is_height(&pair[0]) && is_down(&pair[1]))
-        || behind.is_some_and(|word| is_down(&word.to_lowercase()))
-}
-
 /// What the field says in which the headers cross.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Corner {
     pub(super) rows: Option<Axis>,
     pub(super) columns: Option<Axis>,
     pub(super) unit: Option<Notation>,
+    /// The unit of the distances of stations alone.
+    pub(super) x_unit: Option<Notation>,
     /// Positions from midship or from FP, as the words say.
     pub(super) from: Option<From>,
     /// Whether distances from midship are positive aft.
@@ -305,20 +219,9 @@ impl Corner {
         let behind = lower.split_once(" from ").and_then(|(_, after)| From::end_of(&first(after)?));
         let aft = rows.is_some_and(Axis::is_station) && words(bare).len() == 2 && words(bare)[1] == "aft";
         let from = From::of(text).or(behind).or(aft.then_some(From::ForePerpendicular));
-        let signs = ["+ aft", "+aft", "aft +", "positive aft", "aft positive", "+ve aft"];
-        let forward = [
-            "fwd +",
-            "forward +",
-            "+ fwd",
-            "+ forward",
-            "forward positive",
-            "positive forward",
-            "aft -",
-            "aft negative",
-        ];
-        let contains = |any: &[&str]| any.iter().any(|words| lower.contains(words));
-        let aftward = contains(&signs) && !contains(&forward);
-        Self { rows, columns, unit, from, aftward, spaces: spaces.filter(|&n: &f64| n > 0.0) }
+        let aftward = is_aftward(&lower);
+        let x_unit = unit_of_positions(text).filter(|_| rows.is_some_and(Axis::is_station));
+        Self { rows, columns, unit, x_unit, from, aftward, spaces: spaces.filter(|&n: &f64| n > 0.0) }
     }
 }
 
@@ -346,6 +249,45 @@ fn number(text: &str) -> Result<Coordinate, UnitError> {
         Dimension::Length => Ok(Coordinate::Length(measure.value)),
         other => Err(UnitError::Kind { text: text.to_owned(), found: other.as_str(), expected: "a length" }),
     }
+}
+
+/// The positions that the headers of lines name, or why one names none.
+///
+/// The point of `WL.5` closes an abbreviation. Headers that rise or fall only with it as a decimal point, as `WL.25`, `WL.5`,
+/// `WL1`, have decimals.
+pub(super) fn positions<'t>(
+    texts: impl Iterator<Item = &'t str>,
+    decimal_comma: bool,
+) -> Vec<Result<Position, UnitError>> {
+    let texts: Vec<&str> = texts.collect();
+    let closed = texts.iter().map(|text| position(text, decimal_comma)).collect();
+    if !texts.iter().any(|text| abbreviation(text).is_some()) {
+        return closed;
+    }
+    let spaced = texts.iter().map(|text| match abbreviation(text) {
+        Some(at) => position(&format!("{} {}", &text[..at], &text[at..]), decimal_comma),
+        None => position(text, decimal_comma),
+    });
+    let decimal: Vec<Result<Position, UnitError>> = spaced.collect();
+    let orderly = |list: &[Result<Position, UnitError>]| {
+        let numbers = list.iter().filter_map(|head| match head.as_ref().ok()?.place {
+            Coordinate::Number(number) | Coordinate::Length(number) => Some(number),
+            _ => None,
+        });
+        is_orderly(&numbers.collect::<Vec<f64>>())
+    };
+    if !orderly(&closed) && orderly(&decimal) { decimal } else { closed }
+}
+
+/// Where the point stands that follows a letter and precedes a digit, as in `WL.5`.
+fn abbreviation(text: &str) -> Option<usize> {
+    let at =
+        text.char_indices().zip(text.chars().skip(1)).zip(text.chars().skip(2)).find_map(|(((at, a), b), c)| {
+            (a.is_alphabetic() && b == '.' && c.is_ascii_digit()).then_some(at + a.len_utf8())
+        })?;
+    // A decimal writes its zeros: `WL.05`.
+    let digits = &text[at + 1..];
+    (!(digits.starts_with('0') && digits[1..].starts_with(|c: char| c.is_ascii_digit()))).then_some(at)
 }
 
 /// The position that a header names.
@@ -377,7 +319,8 @@ pub(super) fn position(text: &str, decimal_comma: bool) -> Result<Position, Unit
     if let Some((before, after)) = text.split_once(['(', '[']) {
         let inside = after.trim_end().trim_end_matches([')', ']']);
         let unit = Notation::from_word(inside).is_some();
-        let words_alone = !inside.bytes().any(|b| b.is_ascii_digit()) && From::of(inside).is_some();
+        let words_alone =
+            !inside.bytes().any(|b| b.is_ascii_digit()) && From::of(inside).or_else(|| From::end_of(inside)).is_some();
         if words_alone && !before.trim().is_empty() {
             bare = before.trim();
         } else if !before.trim().is_empty() && !unit {
@@ -391,12 +334,20 @@ pub(super) fn position(text: &str, decimal_comma: bool) -> Result<Position, Unit
     if let Some((_, after)) = bare.split_once(['=', '@']) {
         return here(number(&unbracketed(after))?);
     }
+    // `1.50 m above base`.
+    if let Some((before, after)) = bare.split_once(" above ")
+        && (is_base_line(after) || after.trim().eq_ignore_ascii_case("keel"))
+    {
+        bare = before.trim();
+    }
     if let Ok(place) = number(&unbracketed(bare)) {
         return here(place);
     }
     // Words before the number, or after it.
-    let start = bare.find(|c: char| c.is_ascii_digit()).unwrap_or(bare.len());
-    let signed = bare[..start].ends_with('.') || bare[..start].ends_with(" -") || bare[..start] == *"-";
+    let is_digit = |c: char| c.is_ascii_digit() || matches!(c, '\u{bc}'..='\u{be}');
+    let start = bare.find(is_digit).unwrap_or(bare.len());
+    let is_closed = abbreviation(bare).is_some_and(|at| at + 1 == start);
+    let signed = bare[..start].ends_with('.') && !is_closed || bare[..start].ends_with(" -") || bare[..start] == *"-";
     let start = if signed { start - 1 } else { start };
     let prefix_is_words = bare[..start].chars().all(|c| c.is_alphabetic() || matches!(c, ' ' | '_' | '.' | '-' | '#'));
     let rest = &bare[start..];
@@ -451,10 +402,13 @@ mod tests {
         assert_eq!(place("WL-3"), Coordinate::Number(3.0));
         assert_eq!(place("wl0.075"), Coordinate::Number(0.075));
         assert_eq!(place("WL .5"), Coordinate::Number(0.5));
+        assert_eq!((place("WL.5"), place("St.10")), (Coordinate::Number(5.0), Coordinate::Number(10.0)));
+        assert_eq!((place("WL.05"), place("WL.0.5")), (Coordinate::Number(0.05), Coordinate::Number(0.5)));
         assert_eq!(place("1.5 WL"), Coordinate::Number(1.5));
         assert_eq!((axis_of("1st WL"), axis_of("St. 1")), (Some(Axis::Waterline), Some(Axis::Station)));
         assert_eq!((place("1st WL"), place("Waterline 2nd")), (Coordinate::Number(1.0), Coordinate::Number(2.0)));
         assert_eq!(place("1.5 m WL"), Coordinate::Length(1.5));
+        assert_eq!((place("1.5m above base"), place("\u{bd} WL")), (Coordinate::Length(1.5), Coordinate::Number(0.5)));
         assert_eq!(place("R5"), Coordinate::Number(5.0));
         assert_eq!(place("3-0-0"), Coordinate::Length(0.9144));
         assert_eq!((place("A.P."), place("FP")), (Coordinate::AftPerpendicular, Coordinate::ForePerpendicular));
@@ -463,7 +417,11 @@ mod tests {
             (Coordinate::Number(0.0), Coordinate::Number(0.0), Coordinate::Number(0.0))
         );
         assert_eq!((place("DWL 4.5 m"), place("0.75m WL")), (Coordinate::Length(4.5), Coordinate::Length(0.75)));
-        for (text, at, end) in [("0 (FP)", 0.0, From::ForePerpendicular), ("20 AP", 20.0, From::AftPerpendicular)] {
+        for (text, at, end) in [
+            ("0 (FP)", 0.0, From::ForePerpendicular),
+            ("0 (bow)", 0.0, From::ForePerpendicular),
+            ("20 AP", 20.0, From::AftPerpendicular),
+        ] {
             let found = position(text, false).unwrap();
             assert_eq!((found.place, found.end), (Coordinate::Number(at), Some(end)));
         }
@@ -492,11 +450,43 @@ mod tests {
     }
 
     #[test]
+    fn areas_and_levels() {
+        for text in ["A [m2]", "SA m2", "Awl (m\u{b2})", "Volume [ft^3]", "A sq ft", "A_m2"] {
+            assert!(has_area_unit(text), "{text}");
+        }
+        for text in ["WL 2", "WL 2 m", "m2", "1.5 [m]", "BT 2 in"] {
+            assert!(!has_area_unit(text), "{text}");
+        }
+        for text in
+            ["Heights above LWL in metres", "x \\ z from the design waterline [m]", "z = 0 at DWL", "WL above D.W.L."]
+        {
+            assert!(counts_from_waterline(text), "{text}");
+        }
+        for text in
+            ["Heights above base", "Waterlines from keel to LWL", "LWL 6 m above base", "Heights above the bottom line"]
+        {
+            assert!(!counts_from_waterline(text), "{text}");
+        }
+        assert!(
+            is_aftward("x aft of midship [m]") && is_aftward("Distance abaft amidships") && is_aftward("x (+ aft)")
+        );
+        assert!(!is_aftward("Distance from aft perpendicular") && !is_aftward("x from midship, aft -"));
+    }
+
+    #[test]
     fn sides() {
+        use crate::hull::SideKind;
         assert_eq!(side_of("z_keel"), Some(SideKind::Keel));
         assert_eq!(side_of("Flat of Bottom [m]"), Some(SideKind::FlatOfBottom));
         assert_eq!(side_of("half-breadth at deck"), Some(SideKind::DeckHalfBreadth));
         assert_eq!(side_of("stern"), Some(SideKind::Stern));
+        assert_eq!(
+            (side_of("Rabbet ht"), side_of("Height of keel (mm)")),
+            (Some(SideKind::Keel), Some(SideKind::Keel))
+        );
+        assert_eq!(side_of("Sheer half-breadth"), side_of("Half-breadth at sheer"));
+        assert_eq!(side_of("Deck side height [m]"), Some(SideKind::DeckHeight));
+        assert_eq!((side_of("Deck"), is_deck("Deck (m)"), is_deck("Deck 2")), (None, true, false));
         assert_eq!(side_of("WL 3"), None);
         for (_, kind) in SIDES {
             assert_eq!(side_of(side_name(kind)), Some(kind));

@@ -4,12 +4,12 @@
 //! from the conventions, else from the words of the headers, else from the numbers: a hull tapers to both of its ends,
 //! and does not taper upwards.
 
-use super::header::{Axis, Corner, axis_of, is_base_line, is_orderly, plain_number, side_of};
+use super::header::{Axis, Corner, axis_of, has_area_unit, is_base_line, is_deck, is_orderly, plain_number, side_of};
 use super::pieces::Piece;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::Settings;
 use crate::hull::{Rows, SideKind};
-use crate::units::counted;
+use crate::units::{CellEntry, CellRules, Notation, counted, parse_cell};
 
 /// More rows of three numbers are points.
 const LEAST_POINTS: usize = 12;
@@ -269,17 +269,25 @@ fn is_positions(field: &Field, stations: bool) -> bool {
     side_of(text).is_none() && (crossed || named)
 }
 
-/// Whether more headers name buttocks than waterlines. The base line is none of these.
+/// Whether more headers name buttocks than waterlines. The base line is none of these, and lines without a name are what the
+/// first one is.
 fn are_buttocks<'f>(heads: impl Iterator<Item = &'f Field>) -> bool {
-    let is_line = |head: &&Field| side_of(&head.text).is_none() && !is_base_line(head.trimmed());
-    let axes = heads.filter(is_line).filter_map(|head| axis_of(&head.text));
-    let (buttocks, others): (Vec<Axis>, Vec<Axis>) = axes.partition(|axis| *axis == Axis::Buttock);
-    buttocks.len() > others.len()
+    let is_line = |head: &&Field| side_of(&head.text).is_none() && !is_base_line(head.trimmed()) && !head.is_blank();
+    let axes: Vec<Option<Axis>> = heads.filter(is_line).map(|head| axis_of(&head.text)).collect();
+    let (buttocks, others): (Vec<Axis>, Vec<Axis>) = axes.iter().flatten().partition(|axis| **axis == Axis::Buttock);
+    let begins = axes.first().is_some_and(Option::is_some) || axes.iter().all(Option::is_some);
+    begins && buttocks.len() > others.len()
 }
 
-/// Whether a header names sums and multipliers (Simpson's rule), which are no offsets.
+/// Whether a header names a buttock in full; `BL` may be the base line.
+fn names_buttock(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    lower.split(|c: char| !c.is_alphabetic()).any(|word| matches!(word, "bt" | "butt" | "buttock" | "buttocks"))
+}
+
+/// Whether a header names what is no line of offsets: sums and multipliers (Simpson's rule), areas, volumes and remarks.
 fn is_reckoning(field: &Field) -> bool {
-    const WORDS: [&str; 13] = [
+    const FIRST: [&str; 13] = [
         "sm",
         "simpson",
         "simpsons",
@@ -294,24 +302,82 @@ fn is_reckoning(field: &Field) -> bool {
         "f(a)",
         "f(v)",
     ];
+    const ANY: [&str; 10] =
+        ["area", "areas", "volume", "volumes", "remark", "remarks", "note", "notes", "comment", "comments"];
     let name = field.trimmed().to_lowercase().replace(['.', '\'', '\u{2019}'], "");
-    WORDS.contains(&name.as_str())
-        || name.split_whitespace().next().is_some_and(|word| WORDS.contains(&word)) && !field.text.contains('=')
+    let mut words = name.split(|c: char| !c.is_alphabetic());
+    FIRST.contains(&name.as_str())
+        || name.split_whitespace().next().is_some_and(|word| FIRST.contains(&word)) && !field.text.contains('=')
+        || words.any(|word| ANY.contains(&word))
+        || has_area_unit(field.trimmed())
 }
 
-/// Without columns and rows of sums and multipliers, which are named.
+/// Without columns and rows of what is no offset, which are named.
 fn without_reckoning(fields: Vec<Vec<Field>>, problems: &mut Problems) -> Vec<Vec<Field>> {
     let columns: Vec<bool> = fields[0].iter().enumerate().map(|(j, head)| j > 0 && is_reckoning(head)).collect();
     let is_row = |i: usize, row: &[Field]| i > 0 && row.first().is_some_and(is_reckoning);
     let left_out = fields[0].iter().zip(&columns).filter(|(_, out)| **out).map(|(head, _)| head);
     let rows = fields.iter().enumerate().filter(|(i, row)| is_row(*i, row)).map(|(_, row)| &row[0]);
     for head in left_out.chain(rows) {
-        let message = "left out: sums and multipliers are no offsets".to_owned();
+        let message = "left out: sums, multipliers, areas, volumes and remarks are no offsets".to_owned();
         problems.warning("W332", head.place(), message, "");
     }
     let kept = fields.into_iter().enumerate().filter(|(i, row)| !is_row(*i, row));
     let without = |row: Vec<Field>| row.into_iter().zip(&columns).filter(|(_, out)| !**out).map(|(f, _)| f).collect();
     kept.map(|(_, row)| without(row)).collect()
+}
+
+/// The least over the greatest height of a deck, at least, and that of its half-breadths, at most; and the half-breadth of a fine
+/// end over the greatest.
+const DECK_HEIGHTS: f64 = 0.5;
+const DECK_BREADTHS: f64 = 0.35;
+const FINE_END: f64 = 0.5;
+
+/// What a column named deck holds, by its numbers: half-breadths fall to the fine ends of the hull, heights do not. `rows` are
+/// its numbers beside the greatest half-breadths of the stations.
+fn deck_by_numbers(rows: &[(f64, f64)]) -> Option<SideKind> {
+    let greatest = |of: fn(&(f64, f64)) -> f64| rows.iter().map(of).fold(0.0, f64::max);
+    let (deck, breadth) = (greatest(|row| row.0), greatest(|row| row.1));
+    let fine = rows.iter().filter(|row| row.1 <= FINE_END * breadth);
+    let least = fine.map(|row| row.0).reduce(f64::min)? / deck;
+    if least <= DECK_BREADTHS {
+        Some(SideKind::DeckHalfBreadth)
+    } else {
+        (least >= DECK_HEIGHTS).then_some(SideKind::DeckHeight)
+    }
+}
+
+/// The kind of the column of a deck at `column` below `head`, with what was assumed; an error where nothing tells it.
+fn deck(head: &Field, rows: &[Vec<Field>], column: usize, problems: &mut Problems) -> Option<SideKind> {
+    let length = |field: &Field| {
+        let rules = CellRules { unit: Notation::Metres, decimal_comma: field.text.contains(',') };
+        match parse_cell(&field.text, rules).ok()?.entry {
+            CellEntry::Length(length) => Some(length.abs()),
+            _ => None,
+        }
+    };
+    let beside = |row: &Vec<Field>| {
+        let others =
+            row.iter().enumerate().filter(|(j, _)| *j > 0 && *j != column).filter_map(|(_, field)| length(field));
+        Some((length(&row[column])?, others.reduce(f64::max)?))
+    };
+    let numbers: Vec<(f64, f64)> = rows.iter().filter(|row| !row[0].is_blank()).filter_map(beside).collect();
+    let kind = deck_by_numbers(&numbers);
+    let remedy = "Write 'z deck' over its heights, 'y deck' over its half-breadths";
+    match kind {
+        None => {
+            let message = "a line named deck, of heights or of half-breadths: its numbers do not tell which".to_owned();
+            problems.error("E310", head, message, remedy);
+        }
+        Some(kind) => {
+            let (what, why) = match kind {
+                SideKind::DeckHeight => ("heights", "they do not fall to the ends as half-breadths do"),
+                _ => ("half-breadths", "they fall to the ends as those of the waterlines do"),
+            };
+            problems.warning("W320", head.place(), format!("taken as {what} of the deck at side: {why}"), remedy);
+        }
+    }
+    kind
 }
 
 fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<Block> {
@@ -372,7 +438,12 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
     // Which column is what: a position, a side, or nothing.
     let mut columns: Vec<Option<bool>> = vec![None; heads.len()];
     for (j, head) in heads.iter().enumerate().skip(left + 1) {
-        if let Some(kind) = side_of(head.trimmed()).filter(|kind| !matches!(kind, SideKind::Stern | SideKind::Stem)) {
+        let by_numbers = is_deck(head.trimmed());
+        let kind = if by_numbers { deck(head, &fields[top + 1..], j, problems) } else { side_of(head.trimmed()) };
+        if by_numbers && kind.is_none() {
+            continue;
+        }
+        if let Some(kind) = kind.filter(|kind| !matches!(kind, SideKind::Stern | SideKind::Stem)) {
             let before = block.heads.is_empty();
             block.sides.push(SideHeader { kind, head: head.clone(), before });
             columns[j] = Some(true);
@@ -381,6 +452,10 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
                 let message = "an offset without a header".to_owned();
                 problems.error("E310", full, message, "Write the position of its waterline over it");
             }
+        } else if !buttocks && names_buttock(head.trimmed()) {
+            let message = "left out: heights at a buttock among half-breadths";
+            let remedy = "Give heights at buttocks in a table of their own, below an empty row";
+            problems.warning("W332", head.place(), message.to_owned(), remedy);
         } else {
             block.heads.push(head.clone());
             columns[j] = Some(false);

@@ -18,6 +18,7 @@ mod checks;
 mod chines;
 mod columns;
 mod delftship;
+mod edges;
 mod ends;
 mod fields;
 mod formats;
@@ -25,6 +26,7 @@ mod freeship;
 mod ghs;
 mod grid;
 mod header;
+mod heights;
 mod joined;
 mod lines;
 mod long;
@@ -177,6 +179,8 @@ fn read_any(name: &str, bytes: &[u8], sidecar: Vec<(&str, &str)>) -> Result<Read
         checks::missing(table, &mut problems);
         checks::whole(table, settings.full, &mut problems);
         checks::profiles(table, &mut problems);
+        edges::far(table, &mut problems);
+        edges::deck(table, &mut problems);
     } else if !problems.any_errors() {
         let message = "no table of offsets is recognised".to_owned();
         problems.error(

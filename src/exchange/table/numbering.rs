@@ -1,6 +1,6 @@
 //! Where stations are counted from, and how far apart they are: distances, or numbers with AP and FP among them.
 
-use super::header::{Axis, Coordinate, Corner, From, Position};
+use super::header::{Axis, Coordinate, Corner, From, Position, is_aftward};
 use super::problem::{FilePosition, Problems};
 use super::settings::{Settings, StationScale, metres};
 use crate::hull::StationDatum;
@@ -19,10 +19,27 @@ const FINE_END: f64 = 0.25;
 /// Hulls whose length would be less than this many breadths may have numbers for stations.
 const SHORT: f64 = 4.0;
 
+/// Where positions of stations count from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Datum {
+    pub(super) datum: StationDatum,
+    /// The point from which distances count, where L_PP is not known and its place has to be assumed.
+    pub(super) open: Option<From>,
+}
+
+impl std::convert::From<StationDatum> for Datum {
+    fn from(datum: StationDatum) -> Self {
+        Self { datum, open: None }
+    }
+}
+
+/// No ship has more frames; what extends farther are distances.
+const MOST_NUMBERS: f64 = 1000.0;
+
 /// The positions of the stations of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Origin {
-    pub(super) datum: StationDatum,
+    pub(super) datum: Datum,
     /// Whether they are numbers, and no distances.
     pub(super) numbers: bool,
     /// Distance between perpendiculars by the numbers of these \[m\].
@@ -147,22 +164,28 @@ pub(super) fn origin(
         problems.warning("W320", FilePosition::FILE, message, "Give stations in the conventions if it does not");
     }
     let stated = settings.stations.or(said.map(|(scale, _)| *scale));
+    let end = settings.sentences.end.as_ref().filter(|_| stated.is_none() && corner.from.is_none());
+    if let Some((from, words)) = end {
+        let message = format!("'{words}' says that stations count from {}", from.as_str());
+        problems.warning("W320", FilePosition::FILE, message, "Give stations in the conventions if it does not");
+    }
+    let corner = Corner { from: corner.from.or(end.map(|(from, _)| *from)), ..corner };
     let scale = stated.unwrap_or_else(|| {
         let are_numbers = match says {
-            Some(Axis::Station) if corner.unit.is_none() => true,
+            Some(Axis::Station) if corner.unit.or(corner.x_unit).is_none() && high - low <= MOST_NUMBERS => true,
             Some(Axis::X) => false,
-            _ if 2 * named > heads.len() => true,
+            _ if 2 * named > heads.len() && high - low <= MOST_NUMBERS => true,
             // Without words, or with a unit beside them: a hull that would be shorter than it is broad counts its
             // stations.
             _ => {
-                let length = corner.unit.map_or(high - low, |unit| unit.metres(high - low));
+                let length = corner.x_unit.or(corner.unit).map_or(high - low, |unit| unit.metres(high - low));
                 numbers.len() > 1 && length < 2.0 * breadths.largest
             }
         };
         let are_numbers = are_numbers || shows_numbers(&heads, length);
         StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers: are_numbers }
     });
-    let is_stated = stated.is_some() || settings.units.or(settings.x_units).or(corner.unit).is_some();
+    let is_stated = stated.is_some() || settings.units.or(settings.x_units).or(corner.unit).or(corner.x_unit).is_some();
     let is_short = high - low < 2.0 * SHORT * breadths.largest;
     if !scale.numbers && !is_stated && says != Some(Axis::X) && is_short && counts(&numbers, [low, high]) {
         let message = format!(
@@ -173,11 +196,14 @@ pub(super) fn origin(
         let remedy = "Give stations = \"from AP\", or \"numbers from FP\" with Lpp, in the conventions";
         problems.warning("W320", FilePosition::FILE, message, remedy);
     }
-    if numbers.is_empty() || !scale.numbers && scale.from == From::AftPerpendicular {
-        return Origin { datum: StationDatum::Lengths, numbers: scale.numbers, length: None };
-    }
-    if !scale.numbers {
-        return Origin { datum: distances(scale.from, corner.aftward, length, problems), numbers: false, length: None };
+    // Labels with a unit are distances.
+    if !scale.numbers || numbers.is_empty() {
+        let aftward = corner.aftward
+            || said.map(|(_, words)| words).or(end.map(|(_, words)| words)).is_some_and(|words| is_aftward(words));
+        let is_open = stated.is_none() && corner.from.is_none();
+        let from = Some(scale.from).filter(|_| !is_open);
+        let datum = distances(from, aftward, extremes(&heads), length, problems);
+        return Origin { datum, numbers: scale.numbers, length: None };
     }
     let [aft, fore] = [From::AftPerpendicular, From::ForePerpendicular].map(|end| number_of(&heads, end));
     let between = aft.zip(fore).map(|(aft, fore)| (fore - aft).abs()).filter(|spaces| *spaces > 0.0);
@@ -218,7 +244,7 @@ pub(super) fn origin(
         From::ForePerpendicular => (aft, fore.or(first)),
         From::Midship => (aft, fore),
     };
-    let spaces = settings.spaces.or(corner.spaces).or(between).or(usual([low, high]));
+    let spaces = settings.spaces.or(corner.spaces).or(between).or(settings.sentences.spaces).or(usual([low, high]));
     let length = length.or(spaces.filter(|_| between.is_some()).map(|spaces| spaces * spacing));
     let datum = match from {
         From::ForePerpendicular => {
@@ -231,33 +257,50 @@ pub(super) fn origin(
         From::Midship => StationDatum::Numbers { offset: 0.5 * length.unwrap_or(0.0), spacing },
         From::AftPerpendicular => StationDatum::Numbers { offset: -aft.unwrap_or(0.0) * spacing, spacing },
     };
-    Origin { datum, numbers: true, length: between.map(|spaces| spaces * spacing) }
+    Origin { datum: datum.into(), numbers: true, length: between.map(|spaces| spaces * spacing) }
 }
 
-/// Distances that do not count from AP.
-fn distances(from: From, aftward: bool, length: Option<f64>, problems: &mut Problems) -> StationDatum {
-    let (offset, sign) = match (from, length) {
-        (From::Midship, Some(length)) => (0.5 * length, if aftward { -1.0 } else { 1.0 }),
-        (From::Midship, None) if aftward => {
-            let message = "distances count aft from midship, and L_PP is not known".to_owned();
-            problems.error("E311", FilePosition::FILE, message, "Give Lpp in the conventions");
-            (0.0, 1.0)
-        }
-        (From::ForePerpendicular, Some(length)) => (length, -1.0),
-        (From::ForePerpendicular, None) => {
-            let message =
-                "distances count from FP and L_PP is not known: x is 0 at FP and negative aft of it".to_owned();
-            problems.warning("W320", FilePosition::FILE, message, "Give Lpp in the conventions");
-            (0.0, -1.0)
-        }
-        // `ends_from_midship` finds AP, once the unit is known.
-        _ => (0.0, 1.0),
+/// The least and the greatest distance among positions, in units of the table and in metres alike.
+fn extremes(heads: &[Position]) -> [f64; 2] {
+    let distances = heads.iter().filter_map(|head| match head.place {
+        Coordinate::Number(distance) | Coordinate::Length(distance) => Some(distance),
+        _ => None,
+    });
+    distances.fold([0.0, 0.0], |[low, high], distance| [low.min(distance), high.max(distance)])
+}
+
+/// Distances from the point that is stated, or from AP. A hull lies forward of AP and aft of FP, so that the numbers tell their
+/// direction there.
+fn distances(
+    from: Option<From>,
+    aftward: bool,
+    [low, high]: [f64; 2],
+    length: Option<f64>,
+    problems: &mut Problems,
+) -> Datum {
+    let is_negative = -low > high;
+    let (from, sign) = match from {
+        None => return StationDatum::Lengths.into(),
+        Some(From::AftPerpendicular) if !is_negative => return StationDatum::Lengths.into(),
+        Some(from @ From::Midship) => (from, if aftward { -1.0 } else { 1.0 }),
+        Some(from @ From::AftPerpendicular) => (from, -1.0),
+        Some(from @ From::ForePerpendicular) => (from, if is_negative { 1.0 } else { -1.0 }),
     };
-    if length.is_some() {
-        let place = if from == From::Midship { "midship" } else { "FP" };
-        problems.note(format!("distances count from {place}, which is {offset} m forward of AP"));
+    if is_negative && from != From::Midship {
+        let word = if from == From::AftPerpendicular { "forward of AP" } else { "aft of FP" };
+        problems.note(format!("distances are negative {word}"));
     }
-    StationDatum::Shifted { offset, sign }
+    let offset = match (from, length) {
+        (From::AftPerpendicular, _) => Some(0.0),
+        (From::Midship, Some(length)) => Some(0.5 * length),
+        (From::ForePerpendicular, length) => length,
+        (From::Midship, None) => None,
+    };
+    if let Some(offset) = offset.filter(|_| from != From::AftPerpendicular) {
+        problems.note(format!("distances count from {}, which is {offset} m forward of AP", from.as_str()));
+    }
+    let datum = StationDatum::Shifted { offset: offset.unwrap_or(0.0), sign };
+    Datum { datum, open: Some(from).filter(|_| offset.is_none()) }
 }
 
 /// Twenty or ten spaces where the numbers end there, or one before with the other end one after 0; others have to be stated.
@@ -289,7 +332,7 @@ fn spacing(
     (between, [low, high]): (Option<f64>, [f64; 2]),
     problems: &mut Problems,
 ) -> f64 {
-    let spaces = settings.spaces.or(corner.spaces).or(between).or(usual([low, high]));
+    let spaces = settings.spaces.or(corner.spaces).or(between).or(settings.sentences.spaces).or(usual([low, high]));
     match (settings.station_spacing, settings.stated.length_between_perpendiculars, spaces) {
         (Some(spacing), _, _) => {
             problems.note(format!("stations are numbered; {spacing} m from one number to the next"));

@@ -3,7 +3,7 @@
 //!
 //! Empty rows and columns part the pieces. A piece that begins with numbers goes on with the table before it.
 
-use super::header::{Coordinate, begins_as_number, position, side_of};
+use super::header::{Coordinate, begins_as_number, is_area_unit, position, side_of};
 use super::problem::{Field, FilePosition, Problems};
 use crate::units::Notation;
 
@@ -100,18 +100,21 @@ fn is_table(rows: &[Vec<Field>]) -> bool {
     rows.iter().any(|row| row.iter().filter(|field| is_numeric(field)).count() > 1)
 }
 
-/// Whether the first row is a title, or groups of headers: few words over a row with more fields.
+/// Whether the first row is a title, or groups of headers: few words over a row with more fields. Titles may stand below each
+/// other.
 fn is_heading(rows: &[Vec<Field>]) -> bool {
-    let [first, second, ..] = rows else { return false };
+    let [first, rest @ ..] = rows else { return false };
     let count = filled(first);
     let words = |field: &Field| field.text.contains(char::is_alphabetic);
     let texts = || first.iter().filter(|field| !field.is_blank());
+    let is_title = |row: &&Vec<Field>| filled(row) == 1 && row.iter().any(words);
+    let Some(below) = rest.iter().find(|row| !is_title(row)) else { return false };
     match count {
         0 => true,
-        1 => texts().all(words) && filled(second) > 1 && second.len() > 1,
+        1 => texts().all(words) && filled(below) > 1 && below.len() > 1,
         _ => {
             let plain = |field: &Field| words(field) && !is_numeric(field) && !names_position(field);
-            2 * count <= filled(second) && texts().all(plain)
+            2 * count <= filled(below) && texts().all(plain)
         }
     }
 }
@@ -151,20 +154,31 @@ fn bare(mut rows: Vec<Vec<Field>>) -> Piece {
     }
     let units_below = rows.len() > 2 && {
         let (given, heads) = (filled(&rows[1]), filled(&rows[0]));
-        given > 0 && 2 * given + 1 >= heads && rows[1].iter().all(|field| field.is_blank() || unit(field).is_some())
+        given > 0
+            && 2 * given + 1 >= heads
+            && rows[1].iter().all(|field| field.is_blank() || unit(field).is_some() || is_area_unit(field.trimmed()))
     };
     if units_below {
+        // The unit of an area goes with its name.
+        let (heads, below) = rows.split_at_mut(1);
+        for (head, field) in heads[0].iter_mut().zip(&below[0]).filter(|(_, field)| is_area_unit(field.trimmed())) {
+            head.text = format!("{} {}", head.trimmed(), field.trimmed());
+        }
         piece.units = rows.remove(1).iter().map(unit).collect();
     }
     piece.rows = rows;
     piece
 }
 
-/// A word with a number beside it, in a row of nothing else.
+/// A word with a number beside it, and perhaps its unit, in a row of nothing else.
 fn pair(row: &[Field]) -> Option<(Field, Field)> {
     let mut fields = row.iter().filter(|field| !field.is_blank());
     let (key, value) = (fields.next()?, fields.next()?);
-    (fields.next().is_none() && is_numeric(value) && !is_numeric(key)).then(|| (key.clone(), value.clone()))
+    let value = match fields.next() {
+        Some(word) => Field { text: format!("{} {}", value.trimmed(), unit(word)?.as_str()), ..value.clone() },
+        None => value.clone(),
+    };
+    (fields.next().is_none() && is_numeric(&value) && !is_numeric(key)).then(|| (key.clone(), value))
 }
 
 /// The texts and the pairs of a piece without a table.

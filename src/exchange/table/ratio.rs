@@ -179,8 +179,11 @@ fn product(text: &str) -> Option<f64> {
 
 /// The dimension of a name.
 pub(super) fn slot<'s>(stated: &'s mut StatedParticulars, key: &str) -> Option<&'s mut Option<f64>> {
-    match key.trim().to_ascii_lowercase().as_str() {
-        "l" | "lpp" | "lbp" | "length" | "length_between_perpendiculars" => {
+    let lower = key.to_lowercase().replace('.', "").replace(['_', ',', '-'], " ");
+    let is_bare = |word: &&str| !matches!(*word, "moulded" | "molded" | "mld" | "design" | "designed");
+    let name: Vec<&str> = lower.split_whitespace().filter(is_bare).collect();
+    match name.join(" ").as_str() {
+        "l" | "lpp" | "lbp" | "l pp" | "length" | "length bp" | "length pp" | "length between perpendiculars" => {
             Some(&mut stated.length_between_perpendiculars)
         }
         "b" | "beam" | "breadth" => Some(&mut stated.breadth),

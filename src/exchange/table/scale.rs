@@ -1,8 +1,9 @@
 //! Units and origins: from what a table declares, and else from the size of its numbers.
 
-use super::header::{Coordinate, Corner, Position};
+use super::header::{Coordinate, Corner, From, Position};
+use super::numbering::Datum;
 use super::problem::{Field, FilePosition, Problems};
-use super::settings::Settings;
+use super::settings::{Settings, metres};
 use crate::hull::StationDatum;
 use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
 
@@ -120,7 +121,7 @@ pub(super) fn units(
         unit
     };
     let z = positions("height", settings.z_units.or(corner.unit.filter(|_| both)), z, LARGEST_HEIGHT, USUAL_HEIGHT);
-    let own = settings.x_units.or(corner.unit);
+    let own = settings.x_units.or(corner.x_unit).or(corner.unit);
     let x = if stations_are_numbers {
         own.unwrap_or(offsets)
     } else {
@@ -178,20 +179,20 @@ fn contradiction(what: &str, unit: Notation, size: Size, largest: f64, declared:
 /// Part of the longer distance from midship at which the perpendiculars may stand.
 const PERPENDICULARS: f64 = 0.9;
 
-/// The origin of distances from midship where L_PP is not known: AP is the outermost station aft of midship that has a
-/// station as far forward of it, if it stands near the end of the table; `unit` is that of the distances. Without such
-/// a pair x is 0 at midship.
+/// The origin of distances from midship or from FP where L_PP is not known; `unit` is that of the distances.
+///
+/// From midship AP is the outermost station aft of it that has a station as far forward, if it stands near the end of the
+/// table; without such a pair x is 0 at midship. From FP the aftermost station is AP.
 pub(super) fn ends_from_midship(
-    origin: StationDatum,
+    origin: Datum,
     settings: &Settings,
     heads: &[Position],
     unit: Notation,
     problems: &mut Problems,
 ) -> StationDatum {
-    if origin != (StationDatum::Shifted { offset: 0.0, sign: 1.0 })
-        || settings.stated.length_between_perpendiculars.is_some()
-    {
-        return origin;
+    let (StationDatum::Shifted { sign, .. }, Some(from)) = (origin.datum, origin.open) else { return origin.datum };
+    if settings.stated.length_between_perpendiculars.is_some() {
+        return origin.datum;
     }
     let distance = |position: &Position| match position.place {
         Coordinate::Number(number) => Some(unit.metres(number)),
@@ -202,16 +203,16 @@ pub(super) fn ends_from_midship(
     let farthest = all.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let paired = |x: f64| x > 0.0 && all.iter().any(|other| (x + other).abs() <= 1e-6 * farthest);
     let half = all.iter().copied().filter(|&x| paired(x)).fold(0.0, f64::max);
-    let (offset, message) = if half >= PERPENDICULARS * farthest && half > 0.0 {
-        let message = format!(
-            "distances count from midship and L_PP is not known: the outermost stations at equal distances are taken as AP and FP, \
-             {} m apart",
-            2.0 * half
-        );
-        (half, message)
+    let (offset, assumed) = if from == From::ForePerpendicular {
+        let aftermost = all.iter().map(|x| -sign * x).fold(0.0, f64::max);
+        (aftermost, format!("the aftermost station, {} m aft of FP, is taken as AP", metres(aftermost)))
+    } else if half >= PERPENDICULARS * farthest && half > 0.0 {
+        let apart = metres(2.0 * half);
+        (half, format!("the outermost stations at equal distances are taken as AP and FP, {apart} m apart"))
     } else {
-        (0.0, "distances count from midship and L_PP is not known: x is 0 at midship".to_owned())
+        (0.0, "x is 0 at midship".to_owned())
     };
+    let message = format!("distances count from {} and L_PP is not known: {assumed}", from.as_str());
     problems.warning("W320", FilePosition::FILE, message, "Give Lpp in the conventions");
-    StationDatum::Shifted { offset, sign: 1.0 }
+    StationDatum::Shifted { offset, sign }
 }

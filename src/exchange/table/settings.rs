@@ -48,6 +48,9 @@
 //! m`; capital and small letters are the same. A comment that is no `key = value` with a single word before the sign is
 //! a comment, but for what it says of stations: `# Stations 3 ft apart`, `# Stations numbered from FP`.
 
+mod prose;
+
+use self::prose::Sentences;
 use super::header::From;
 use super::problem::{Field, Problems};
 use crate::hull::{FeatureLine, Rows, StatedParticulars, TableLayout, TransomPlane};
@@ -89,14 +92,8 @@ pub(super) struct Settings {
     pub(super) frame: BodyFrame,
     /// What sentences beside the numbers say, where nothing else does.
     pub(super) sentences: Sentences,
-}
-
-/// What sentences say of stations, each with its words.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Sentences {
-    /// Distance from one number to the next \[m\].
-    pub(super) spacing: Option<(f64, String)>,
-    pub(super) stations: Option<(StationScale, String)>,
+    /// Words by which heights count from the load waterline.
+    pub(super) from_waterline: Option<String>,
 }
 
 /// A part of a body that is chosen.
@@ -195,6 +192,7 @@ impl Settings {
         for (row, comment) in comments.iter().flat_map(|(row, comment)| parts(comment).map(move |part| (row, part))) {
             let Some((key, value)) = comment.split_once('=') else {
                 self.prose(comment);
+                self.dimensions(comment, problems);
                 continue;
             };
             let (key, value) = (key.trim(), value.trim().trim_matches('"'));
@@ -216,19 +214,6 @@ impl Settings {
                 }
                 (None, None) => {}
             }
-        }
-    }
-
-    /// Takes what a sentence says of stations: "Stations 3 ft apart", "Station spacing: 5 m", "Stations are numbered from the
-    /// forward perpendicular", "station 0 is at FP", "x from FP".
-    pub(super) fn prose(&mut self, comment: &str) {
-        let lower = comment.to_lowercase().replace("f.p.", "fp").replace("a.p.", "ap");
-        let Sentences { spacing: known, stations } = &mut self.sentences;
-        if let (None, Some(found)) = (&known, spacing(&lower)) {
-            *known = Some((found, comment.trim().to_owned()));
-        }
-        if let (None, Some(found)) = (&stations, counted_from(&lower)) {
-            *stations = Some((found, comment.trim().to_owned()));
         }
     }
 
@@ -299,74 +284,6 @@ impl Settings {
 /// A length in metres with the digits that matter.
 pub(super) fn metres(length: f64) -> String {
     format!("{}", (1e6 * length).round() / 1e6)
-}
-
-/// Words of a text: runs of letters and digits with decimal points.
-fn words(text: &str) -> Vec<&str> {
-    let words = text.split(|c: char| !c.is_alphanumeric() && c != '.').map(|word| word.trim_matches('.'));
-    words.filter(|word| !word.is_empty()).collect()
-}
-
-/// The end of the hull, or midship, that the first word names, or the one behind an article.
-fn end(words: &[&str]) -> Option<From> {
-    let at = words.iter().position(|word| *word != "the")?;
-    let word = words.get(at).filter(|_| at < 2)?;
-    if *word == "transom" {
-        return Some(From::AftPerpendicular);
-    }
-    From::of(word).or_else(|| From::end_of(word))
-}
-
-/// From where a sentence says that stations count, and whether they are numbers.
-fn counted_from(lower: &str) -> Option<StationScale> {
-    let words = words(lower);
-    let after = |word: &str| words.iter().position(|own| *own == word).map(|at| &words[at + 1..]);
-    let starts = |any: &[&str]| words.first().is_some_and(|first| any.contains(first));
-    let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
-    let stations = ["station", "stations", "ordinate", "ordinates", "section", "sections"];
-    // "station 0 is at FP", "stations are numbered from FP".
-    let zero = words.windows(2).position(|pair| stations.contains(&pair[0]) && pair[1] == "0");
-    if let Some(zero) = zero {
-        let at = zero + 2 + words[zero + 2..].iter().take(2).position(|word| *word == "at")?;
-        return Some(StationScale { from: end(&words[at + 1..])?, numbers: true });
-    }
-    if has(&stations) && has(&["numbered"]) {
-        let from = after("from").and_then(end)?;
-        return Some(StationScale { from, numbers: true });
-    }
-    // "x from FP, positive aft", "Distances from the stem", "Origin at FP"; not "Distance from FP to AP".
-    let at_second = |word: &str| words.get(1) == Some(&word);
-    let from = if starts(&["x", "distance", "distances", "positions", "abscissae"]) && at_second("from") {
-        end(&words[2..]).filter(|_| !words[2..].iter().take(4).any(|word| *word == "to"))?
-    } else if starts(&["origin"]) && at_second("at") {
-        end(&words[2..])?
-    } else {
-        return None;
-    };
-    Some(StationScale { from, numbers: false })
-}
-
-/// The distance between stations in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in".
-fn spacing(lower: &str) -> Option<f64> {
-    let length = |words: &[&str]| parse_length(&words.join(" ")).ok().filter(|l| *l > 0.0 && l.is_finite());
-    let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
-    if let Some((before, _)) = lower.split_once(" apart") {
-        let words: Vec<&str> = before.split_whitespace().collect();
-        // The number follows the stations, or stands one word behind them.
-        let at = words.iter().rposition(|word| matches!(word.trim_end_matches(','), "station" | "stations"))?;
-        let from = at + 1 + words[at + 1..].iter().take(2).position(is_number)?;
-        return length(&words[from..]);
-    }
-    let known = ["station spacing", "stations spacing", "spacing of stations", "spacing of the stations"];
-    let after = known.iter().find_map(|known| lower.split_once(known))?.1;
-    let words: Vec<&str> = after.split([' ', ':', '=', ',', '\t']).filter(|word| !word.is_empty()).collect();
-    let from = words.iter().take(2).position(is_number)?;
-    // A number alone is all that is left of the sentence.
-    (1..=4)
-        .rev()
-        .filter_map(|count| words.get(from..from + count))
-        .filter(|list| list.len() > 1 || words.len() == from + 1)
-        .find_map(length)
 }
 
 /// The parts `key = value` of a comment, divided by commas or semicolons; the whole where any part is no such thing.

@@ -21,7 +21,7 @@ use super::grid::{MOST_CELLS, MOST_LINES};
 use super::header::{Axis, Corner, Position, position, unit_of};
 use super::numbering::{Breadths, origin};
 use super::problem::{Field, FilePosition, Problems};
-use super::scale::{Size, units};
+use super::scale::{Size, ends_from_midship, units};
 use super::settings::{Settings, nearest};
 use super::write::Writer;
 use crate::hull::{
@@ -135,7 +135,8 @@ pub(super) fn read(
     let breadths = Breadths { largest: y.largest, ..Breadths::default() };
     let origin = origin(settings, corner, &positions, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], origin.numbers, problems);
-    let form = TableForm { origin: origin.datum, layout: TableLayout::Tidy, ..form };
+    let datum = ends_from_midship(origin.datum, settings, &positions, units.x, problems);
+    let form = TableForm { origin: datum, layout: TableLayout::Tidy, ..form };
     let mut reader = TableReader::new(settings, form, units, problems);
     reader.length = reader.length.or(origin.length);
     let mut table = OffsetTable::default();

@@ -375,7 +375,7 @@ impl Writer {
             (SideKind::FlatOfBottom | SideKind::DeckHalfBreadth, _) => (full * value, self.form.notation),
             _ => (value, self.form.z_notation),
         };
-        self.length(value, unit)
+        self.length(value, unit_of(&side.head).unwrap_or(unit))
     }
 
     fn matrix(&mut self, table: &OffsetTable) -> Vec<Vec<String>> {

@@ -38,7 +38,7 @@ pub(super) const TABLES: [Explanation; 33] = [
         code: "E305",
         title: "Unit that contradicts the numbers",
         cause: "Lengths look like millimetres where the unit is metres, or the reverse. The code also marks two \
-         units in one table.",
+         units in one table, and profiles or edges far beyond the rest of the hull.",
         example: "`x [m]` above half-breadths of 1000 to 3900.",
         remedy: "Declare `units = \"mm\"`, or the unit that the numbers have.",
     },

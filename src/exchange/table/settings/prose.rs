@@ -1,0 +1,194 @@
+//! What sentences beside a table say: from where stations count, how far apart lines are, and main dimensions.
+
+use super::{Settings, StationScale, metres};
+use crate::exchange::table::header::{From, plain_number};
+use crate::exchange::table::problem::Problems;
+use crate::exchange::table::ratio::slot;
+use crate::hull::StatedParticulars;
+use crate::units::parse_length;
+
+/// What sentences say of lines, each with its words.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(in crate::exchange::table) struct Sentences {
+    /// Distance from one station number to the next \[m\].
+    pub(in crate::exchange::table) spacing: Option<(f64, String)>,
+    /// Distance from one number of a waterline to the next \[m\].
+    pub(in crate::exchange::table) waterlines: Option<(f64, String)>,
+    pub(in crate::exchange::table) stations: Option<(StationScale, String)>,
+    /// The end from which stations count, by numbers or by distances.
+    pub(in crate::exchange::table) end: Option<(From, String)>,
+    /// The number of the station at the other end.
+    pub(in crate::exchange::table) spaces: Option<f64>,
+}
+
+impl Settings {
+    /// Takes what sentences say of lines: "Stations 3 ft apart", "Station spacing: 5 m", "Stations are numbered from the forward
+    /// perpendicular", "station 0 is at FP", "x from FP", "Waterline spacing 0.5 m".
+    pub(in crate::exchange::table) fn prose(&mut self, comment: &str) {
+        for sentence in sentences(comment) {
+            let lower = sentence.to_lowercase().replace("f.p.", "fp").replace("a.p.", "ap");
+            let words = || comment.trim().to_owned();
+            let known = &mut self.sentences;
+            let apart = |names: &[&str]| spacing(&lower, names).map(|found| (found, words()));
+            known.spacing = known.spacing.take().or_else(|| apart(&["station", "stations"]));
+            known.waterlines = known.waterlines.take().or_else(|| apart(&["waterline", "waterlines", "wl"]));
+            if let Some((number, end)) = numbered_end(&lower).filter(|(number, _)| *number > 0.0) {
+                known.spaces = known.spaces.or(Some(number));
+                let from =
+                    if end == From::ForePerpendicular { From::AftPerpendicular } else { From::ForePerpendicular };
+                let scale = StationScale { from, numbers: true };
+                known.stations = known.stations.take().or_else(|| Some((scale, words())));
+            }
+            known.stations = known.stations.take().or_else(|| Some((counted_from(&lower)?, words())));
+            known.end = known.end.take().or_else(|| Some((stations_from(&lower)?, words())));
+        }
+    }
+
+    /// Takes the main dimensions that a text states: `Lpp: 100 m, B = 16 m`.
+    pub(in crate::exchange::table) fn dimensions(&mut self, text: &str, problems: &mut Problems) {
+        for (name, length) in dimensions(text) {
+            if let Some(slot @ None) = slot(&mut self.stated, &name) {
+                *slot = Some(length);
+                problems.note(format!("{name} is {} m by '{}'", metres(length), text.trim()));
+            }
+        }
+    }
+}
+
+/// The sentences of a text: they end with semicolons, and with points before capital letters.
+fn sentences(text: &str) -> Vec<&str> {
+    let mut list = Vec::new();
+    let mut from = 0;
+    for (at, c) in text.char_indices() {
+        let capital =
+            text[at + c.len_utf8()..].strip_prefix(' ').is_some_and(|rest| rest.starts_with(char::is_uppercase));
+        // `F. P.` and `M.V. ANNA` are no ends of sentences.
+        let is_initial = text[from..at].rsplit([' ', '.']).next().is_some_and(|word| word.chars().count() < 2);
+        if c == ';' || c == '.' && capital && !is_initial {
+            list.push(&text[from..at]);
+            from = at + 1;
+        }
+    }
+    list.push(&text[from..]);
+    list
+}
+
+/// Main dimensions with their lengths \[m\] in a text: `Lpp 100 m, B = 16 m`. Bare numbers and single letters count behind a
+/// sign alone, and a bare length may be any.
+pub(in crate::exchange::table) fn dimensions(text: &str) -> Vec<(String, f64)> {
+    let parts = text.split(';').flat_map(|part| part.split(", "));
+    let dimension = |part: &str| {
+        let at = part.find(|c: char| c.is_ascii_digit())?;
+        let (key, value) = (part[..at].trim(), part[at..].trim().trim_end_matches('.'));
+        let name = key.trim_end_matches([':', '=', ' ']);
+        let has_sign = key.ends_with([':', '=']);
+        let length = match plain_number(value) {
+            Some(number) => Some(number).filter(|_| has_sign),
+            None => parse_length(value).ok(),
+        };
+        let is_name = slot(&mut StatedParticulars::default(), name).is_some()
+            && (has_sign || name.chars().count() > 1)
+            && !matches!(name.to_lowercase().as_str(), "l" | "length");
+        let length = length.filter(|length| is_name && *length > 0.0 && *length < 1e5)?;
+        Some((name.to_owned(), length))
+    };
+    parts.filter_map(dimension).collect()
+}
+
+/// Words of a text: runs of letters and digits with decimal points.
+fn words(text: &str) -> Vec<&str> {
+    let words = text.split(|c: char| !c.is_alphanumeric() && c != '.').map(|word| word.trim_matches('.'));
+    words.filter(|word| !word.is_empty()).collect()
+}
+
+/// The end of the hull, or midship, that the first word names, or the one behind an article.
+fn end(words: &[&str]) -> Option<From> {
+    let at = words.iter().position(|word| *word != "the")?;
+    let word = words.get(at).filter(|_| at < 2)?;
+    if *word == "transom" {
+        return Some(From::AftPerpendicular);
+    }
+    From::of(word).or_else(|| From::end_of(word))
+}
+
+/// Words for stations that have numbers.
+const STATIONS: [&str; 9] = ["station", "stations", "ordinate", "ordinates", "section", "sections", "stn", "sta", "st"];
+
+/// The number of a station and the perpendicular at which a sentence puts it: "station 0 is at FP", "Station 20 = AP".
+fn numbered_end(lower: &str) -> Option<(f64, From)> {
+    let words = words(lower);
+    let at = words.windows(2).position(|pair| STATIONS.contains(&pair[0]) && pair[1].parse::<f64>().is_ok())?;
+    let rest = &words[at + 2..];
+    let filling = rest.iter().take(3).take_while(|word| matches!(**word, "is" | "at" | "the" | "on" | "lies")).count();
+    let end = end(&rest[filling..])?;
+    Some((words[at + 1].parse().ok()?, end)).filter(|(number, end)| *number <= 0.0 || *end != From::Midship)
+}
+
+/// From where a sentence says that stations count, and whether they are numbers.
+fn counted_from(lower: &str) -> Option<StationScale> {
+    if let Some((number, from)) = numbered_end(lower) {
+        return (number <= 0.0).then_some(StationScale { from, numbers: true });
+    }
+    let words = words(lower);
+    let after = |word: &str| words.iter().position(|own| *own == word).map(|at| &words[at + 1..]);
+    let starts = |any: &[&str]| words.first().is_some_and(|first| any.contains(first));
+    let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
+    if has(&STATIONS) && has(&["numbered"]) {
+        let from = after("from").and_then(end)?;
+        return Some(StationScale { from, numbers: true });
+    }
+    // "x from FP, positive aft", "Distances from the stem", "Distance aft of FP", "Origin at FP"; not "Distance from FP to AP".
+    let from = if starts(&["x", "distance", "distances", "positions", "abscissae"]) {
+        from_end(&words[1..])?
+    } else if starts(&["origin"]) && words.get(1) == Some(&"at") {
+        end(&words[2..])?
+    } else {
+        return None;
+    };
+    Some(StationScale { from, numbers: false })
+}
+
+/// The end of the hull in "from FP", "aft of midship"; none in "from FP to AP".
+fn from_end(words: &[&str]) -> Option<From> {
+    let rest = match words {
+        ["from" | "abaft", rest @ ..] | ["aft" | "forward" | "fwd", "of" | "from", rest @ ..] => rest,
+        _ => return None,
+    };
+    end(rest).filter(|_| !rest.iter().take(4).any(|word| *word == "to"))
+}
+
+/// The end in "Stations from FP", which may be distances or numbers.
+fn stations_from(lower: &str) -> Option<From> {
+    let words = words(lower);
+    let (first, rest) = words.split_first()?;
+    STATIONS.contains(first).then(|| from_end(rest)).flatten()
+}
+
+/// The distance between lines of these names in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in".
+fn spacing(lower: &str, names: &[&str]) -> Option<f64> {
+    let length = |words: &[&str]| {
+        let text = words.join(" ");
+        parse_length(text.trim_end_matches('.')).ok().filter(|l| *l > 0.0 && l.is_finite())
+    };
+    let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
+    if let Some((before, _)) = lower.split_once(" apart") {
+        let words: Vec<&str> = before.split_whitespace().collect();
+        // The number follows the lines, or stands one word behind them.
+        let at = words.iter().rposition(|word| names.contains(&word.trim_end_matches(',')))?;
+        let from = at + 1 + words[at + 1..].iter().take(2).position(is_number)?;
+        return length(&words[from..]);
+    }
+    let named = |name: &&str| {
+        let known = [format!("{name} spacing"), format!("spacing of {name}"), format!("spacing of the {name}")];
+        known.iter().find_map(|known| lower.split_once(known.as_str())).map(|(_, after)| after)
+    };
+    let after = names.iter().find_map(named)?;
+    let words: Vec<&str> = after.split([' ', ':', '=', ',', '\t']).filter(|word| !word.is_empty()).collect();
+    let from = words.iter().take(2).position(is_number)?;
+    // A number alone is all that is left of the sentence.
+    (1..=4)
+        .rev()
+        .filter_map(|count| words.get(from..from + count))
+        .filter(|list| list.len() > 1 || words.len() == from + 1)
+        .find_map(length)
+}

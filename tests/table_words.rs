@@ -1,0 +1,228 @@
+//! Words and units beside a table: from where stations and heights count, numbers after abbreviations, columns that are no offsets,
+//! titles and main dimensions. Each writing gives the plain table, or says what it is.
+
+use std::fmt::Write as _;
+
+use crate::table_evidence::{HEIGHTS, columns, distances, half_breadth, matrix, metres, read, same};
+
+/// What a table is warned of or refused for.
+fn messages(text: &str, conventions: &str) -> String {
+    let list = read(text, conventions).map_or_else(|list| list, |read| read.notes);
+    list.iter().map(|problem| format!("{problem}\n")).collect()
+}
+
+/// The plain matrix below a corner, with stations by `head`, aft first.
+fn stations(corner: &str, head: impl Fn(f64) -> String) -> String {
+    let heads: Vec<String> = (0..21).map(|k| head(5.0 * f64::from(k))).collect();
+    matrix(corner, &heads, &columns(|z| format!("{z} m")), metres)
+}
+
+/// The plain matrix with one more column, by its name and its values.
+fn with_column(name: &str, value: impl Fn(f64) -> String) -> String {
+    let text = stations("x [m]", |x| x.to_string());
+    let rows = text.lines().enumerate().map(|(k, row)| match k {
+        0 => format!("{row},{name}\n"),
+        _ => format!("{row},{}\n", value(5.0 * (k as f64 - 1.0))),
+    });
+    rows.collect()
+}
+
+#[test]
+fn labels_with_a_unit_count_from_where_the_words_say() {
+    let length = "[table]\nLpp = 100\n";
+    let from_fp = |x: f64| format!("{} m", 100.0 - x);
+    same(&stations("Distance from FP [m]", from_fp), length);
+    same(&stations("x [m]", from_fp), "[table]\nLpp = 100\nstations = \"from FP\"\n");
+    same(&format!("Distances from FP\n{}", stations("x [m]", from_fp)), length);
+    same(&format!("Stations from the FP\n{}", stations("", from_fp)), length);
+    same(&stations("x from midship", |x| format!("{} m", x - 50.0)), length);
+    same(&stations("x from midship", |x| format!("{} mm", 1000.0 * (x - 50.0))), length);
+    // Without L_PP the ends are assumed, and named.
+    let assumed = same(&stations("Distance from FP [m]", from_fp), "");
+    assert!(
+        assumed.iter().any(|w| w.contains("the aftermost station, 100 m aft of FP, is taken as AP")),
+        "{assumed:?}"
+    );
+    same(&stations("x from FP [m]", |x| (100.0 - x).to_string()), "");
+    same(&stations("x", |x| format!("{} m", x - 50.0)), "[table]\nstations = \"from midship\"\n");
+}
+
+#[test]
+fn distances_aft_of_midship_and_negative_ones() {
+    for corner in
+        ["x aft of midship [m]", "Distance abaft amidships [m]", "x from amidships (+ aft)", "x aft from midship"]
+    {
+        let text = stations(corner, |x| (50.0 - x).to_string());
+        same(&text, "[table]\nunits = \"m\"\nLpp = 100\n");
+        same(&text, "[table]\nunits = \"m\"\n");
+    }
+    same(&format!("x aft of midship\n{}", stations("x [m]", |x| (50.0 - x).to_string())), "[table]\nLpp = 100\n");
+    let forward = stations("x forward of midship [m]", |x| (x - 50.0).to_string());
+    same(&forward, "[table]\nLpp = 100\n");
+    same(&stations("x from FP [m]", |x| (x - 100.0).to_string()), "[table]\nLpp = 100\n");
+    same(&stations("x from AP [m]", |x| (-x).to_string()), "[table]\nLpp = 100\n");
+}
+
+#[test]
+fn numbers_after_an_abbreviation_are_no_decimals() {
+    let numbered = |name: &str| -> Vec<(String, f64)> {
+        (0..6).map(|k| (format!("{name}{k}"), 1.5 * f64::from(k))).filter(|(_, z)| *z < 8.0).collect()
+    };
+    let heights = |text: &str, conventions: &str| read(text, conventions).unwrap().table.waterlines;
+    let wanted = vec![0.0, 1.5, 3.0, 4.5, 6.0, 7.5];
+    let conventions = "[table]\nunits = \"m\"\nwaterline_spacing = 1.5\n";
+    for name in ["WL.", "WL ", "W.L.", "No.", "WL. "] {
+        let text = matrix("x [m]", &distances(), &numbered(name), metres);
+        assert_eq!(heights(&text, conventions), wanted, "{name}");
+    }
+    let text = matrix("x [m]", &distances(), &numbered("WL."), metres);
+    assert!(messages(&text, "").contains("their spacing is not known"), "{}", messages(&text, ""));
+    let titled = format!("Waterline spacing 1.5 m\n{text}");
+    assert_eq!(heights(&titled, ""), wanted);
+    assert!(messages(&titled, "").contains("waterlines are 1.5 m apart"));
+    // Decimals without a zero: they rise as decimals alone.
+    let heads = ["WL.25", "WL.5", "WL.75", "WL1", "WL1.5"].map(|head| (head.to_owned(), head[2..].parse().unwrap()));
+    assert_eq!(heights(&matrix("x [m]", &distances(), &heads, metres), ""), [0.25, 0.5, 0.75, 1.0, 1.5]);
+    for name in ["St.", "Fr.", "Sta.", "Sec."] {
+        let heads: Vec<String> = (0..21).map(|k| format!("{name}{k}")).collect();
+        let text = matrix("", &heads, &columns(|z| format!("{z} m")), metres);
+        same(&text, "[table]\nstations = \"numbers from AP\"\nLpp = 100\n");
+    }
+}
+
+#[test]
+fn areas_volumes_and_remarks_are_no_offsets() {
+    for name in ["A [m2]", "Area [m\u{b2}]", "SA m2", "Section area", "Volume (m^3)", "A sq m", "Remarks"] {
+        let text = with_column(name, |x| metres(2.0 * half_breadth(x, 7.5)));
+        same(&text, "");
+        assert!(messages(&text, "").contains("W332"), "{name}");
+    }
+    let areas: Vec<String> = HEIGHTS.iter().map(|z| metres(60.0 * half_breadth(50.0, *z))).collect();
+    same(&format!("{}Awl [m2],{}\n", stations("x [m]", |x| x.to_string()), areas.join(",")), "");
+    let text = with_column("A", |_| "2".to_owned());
+    let (head, rest) = text.split_once('\n').unwrap();
+    same(&format!("{head}\n{}[m2]\n{rest}", "[m],".repeat(1 + HEIGHTS.len())), "");
+    let found = messages(&with_column("Buttock 2 m", |_| "1.5".to_owned()), "");
+    assert!(found.contains("heights at a buttock among half-breadths"), "{found}");
+    same(&with_column("Buttock 2 m", |_| "1.5".to_owned()), "");
+}
+
+#[test]
+fn a_deck_is_what_its_numbers_are() {
+    let decks = |text: &str| {
+        let table = read(text, "").unwrap().table;
+        (table.stations[10].deck_height, table.stations[10].deck_half_breadth)
+    };
+    let breadths = with_column("Deck", |x| metres(half_breadth(x, 7.5)));
+    assert_eq!(decks(&breadths), (None, Some(8.0)));
+    let found = messages(&breadths, "");
+    assert!(
+        found.contains("taken as half-breadths of the deck") && found.contains("no heights: they are not used"),
+        "{found}"
+    );
+    let heights = with_column("Deck [m]", |x| metres(7.5 + 1e-4 * (x - 50.0).powi(2)));
+    assert_eq!(decks(&heights).0, Some(7.5));
+    assert!(messages(&heights, "").contains("taken as heights of the deck"));
+    let open = messages(&with_column("Deck", |x| metres(2.0 + 0.6 * half_breadth(x, 7.5) / 2.0)), "");
+    assert!(open.contains("E310") && open.contains("'z deck'") && open.contains("'y deck'"), "{open}");
+    for name in ["Deck side height", "Height of sheer", "Sheer ht", "Height at deck"] {
+        assert_eq!(decks(&with_column(name, |_| "7.5".to_owned())), (Some(7.5), None), "{name}");
+    }
+    for name in ["Sheer half-breadth", "Half-breadth at sheer", "Deck HB"] {
+        assert_eq!(decks(&with_column(name, |x| metres(half_breadth(x, 7.5)))), (None, Some(8.0)), "{name}");
+    }
+    for name in ["Keel ht", "Rabbet ht", "Height of rabbet"] {
+        let table = read(&with_column(name, |_| "-0.1".to_owned()), "").unwrap().table;
+        assert_eq!(table.stations[3].keel_height, Some(-0.1), "{name}");
+    }
+    let above = messages(&with_column("z deck", |_| "9".to_owned()), "");
+    assert!(
+        above.contains("up to 1.500 m above the highest waterline") && above.contains("% of the volume"),
+        "{above}"
+    );
+}
+
+#[test]
+fn sides_have_their_own_unit() {
+    let rows = stations("x [m]", |x| x.to_string());
+    let stem = |head: &str, x: f64| {
+        let cells: Vec<String> = HEIGHTS.iter().map(|_| x.to_string()).collect();
+        format!("{rows}{head},{}\n", cells.join(","))
+    };
+    let table = read(&stem("stem [mm]", 100_500.0), "").unwrap().table;
+    assert!((table.endings[0][1].unwrap() - 100.5).abs() < 1e-9);
+    let found = messages(&stem("stem", 100_000.0), "");
+    assert!(found.contains("E305") && found.contains("'stem' is at 100000 m"), "{found}");
+    let found = messages(&stem("stem", 328.0), "");
+    assert!(found.contains("W320") && found.contains("'stem' is at 328 m"), "{found}");
+    let table = read(&with_column("Keel (mm)", |_| "-100".to_owned()), "").unwrap().table;
+    assert!((table.stations[3].keel_height.unwrap() + 0.1).abs() < 1e-12);
+}
+
+#[test]
+fn heights_above_the_load_waterline_need_the_draught() {
+    let lines: Vec<(String, f64)> = HEIGHTS.iter().map(|z| (format!("{}", z - 6.0), *z)).collect();
+    let text = |corner: &str| matrix(corner, &distances(), &lines, metres);
+    for text in [
+        format!("Heights above LWL in metres\n{}", text("x [m]")),
+        text("x \\ z above DWL [m]"),
+        format!("z = 0 at the design waterline\n{}", text("x [m]")),
+    ] {
+        let warned = same(&text, "[table]\nT = 6\n");
+        assert!(warned.iter().any(|w| w.contains("heights count from the waterline")), "{warned:?}");
+        let found = messages(&text, "");
+        assert!(found.contains("E311") && found.contains("Give the draught T"), "{found}");
+    }
+    let found = messages(&text("x [m]"), "");
+    assert!(found.contains("the lowest waterline is at z = -6.000 m"), "{found}");
+    let positive = format!("Heights above LWL\n{}", stations("x [m]", |x| x.to_string()));
+    assert!(same(&positive, "[table]\nT = 6\n").iter().any(|w| w.contains("is not followed")));
+}
+
+#[test]
+fn titles_stand_below_each_other() {
+    let table = stations("x [m]", |x| x.to_string());
+    same(&format!("M.V. ANNA\nTable of offsets\n{table}"), "");
+    same(&format!("M.V. ANNA\nTable of offsets\nMoulded\n{table}"), "");
+    let blanks: String = table.replace(" m", "m").replace("x [m]", "x").replace(',', "   ");
+    let mut ruled = "OFFSETS OF ANNA (METRES)\n-------------------\n".to_owned();
+    writeln!(ruled, "{blanks}-------------------").unwrap();
+    same(&ruled, "");
+}
+
+#[test]
+fn titles_state_main_dimensions_and_spacings() {
+    let from_fp = |corner: &str| stations(corner, |x| ((100.0 - x) / 5.0).to_string());
+    for title in [
+        "Station 0 is the F.P.\nLpp: 100 m",
+        "Station 0 = FP; station 20 = AP\nL.B.P. = 100 m",
+        "Station spacing 5.0 m. Station 0 at FP",
+        "Stations from FP\nLpp,100,m",
+        "Stations numbered from the forward perpendicular\n\"L.B.P.\",100 m",
+        "Station 0 at FP\nLength between perpendiculars: 328.084 ft",
+    ] {
+        same(&format!("{title}\n\n{}", from_fp("Station")), "[table]\nunits = \"m\"\n");
+    }
+    let table = read(&format!("Lpp: 100 m, B = 16 m\n{}", from_fp("Station")), "").unwrap().table;
+    assert_eq!((table.stated.length_between_perpendiculars, table.stated.breadth), (Some(100.0), Some(16.0)));
+    // A bare length may be the length overall.
+    let table = read(&format!("Length: 105 m\n{}", stations("x [m]", |x| x.to_string())), "").unwrap().table;
+    assert_eq!(table.stated.length_between_perpendiculars, None);
+    same(&stations("Station (ft from AP)", |x| (x / 0.3048).to_string()), "[table]\nunits = \"m\"\n");
+    let millimetres = |z: f64| format!("{}", 1000.0 * z);
+    let whole = |y: f64| format!("{:.0}", 1000.0 * y);
+    same(&matrix("Station (m from AP)", &distances(), &columns(millimetres), whole), "");
+    // No ship has 100 000 frames.
+    let heads: Vec<String> = (0..21).map(|k| (5000 * k).to_string()).collect();
+    let text = matrix("St.", &heads, &columns(millimetres), whole);
+    same(&text, "[table]\nunits = \"mm\"\n");
+    let full = matrix("x [m]", &distances(), &columns(|z| format!("{z} m")), |y| metres(2.0 * y));
+    same(&format!("Breadths (full) in metres\n{full}"), "");
+    let ends = |x: f64| match (100.0 - x) / 5.0 {
+        n if n < 0.5 => "0 (bow)".to_owned(),
+        n if n > 19.5 => "20 (stern)".to_owned(),
+        n => n.to_string(),
+    };
+    same(&stations("Station", ends), "[table]\nstation_spacing = 5\n");
+    same(&matrix("x [m]", &distances(), &columns(|z| format!("{z}m above base")), metres), "");
+}
