@@ -15,6 +15,7 @@
 //! station_spacing = 2.1       # between station numbers
 //! spaces = 20                 # station numbers in Lpp
 //! waterline_spacing = 0.6     # between the numbers of WL 1, WL 2, ...
+//! buttock_spacing = 0.5       # between the numbers of Butt 1, Butt 2, ... of a table of lines
 //! Lpp = 62.0                  # B, T, D likewise
 //! separator = ";"             # , ; | tab blank
 //! decimal = ","               # , .
@@ -76,6 +77,7 @@ pub(super) struct Settings {
     pub(super) stations: Option<StationScale>,
     pub(super) station_spacing: Option<f64>,
     pub(super) waterline_spacing: Option<f64>,
+    pub(super) buttock_spacing: Option<f64>,
     pub(super) spaces: Option<f64>,
     pub(super) separator: Option<char>,
     /// Name of the sheet of a workbook.
@@ -128,7 +130,7 @@ pub(super) struct BodyFrame {
 }
 
 /// Keys of `[table]`.
-pub(super) const KEYS: [&str; 27] = [
+pub(super) const KEYS: [&str; 28] = [
     "name",
     "units",
     "x_units",
@@ -139,6 +141,7 @@ pub(super) const KEYS: [&str; 27] = [
     "stations",
     "station_spacing",
     "waterline_spacing",
+    "buttock_spacing",
     "spaces",
     "Lpp",
     "B",
@@ -266,6 +269,7 @@ impl Settings {
             }
             "station_spacing" => self.station_spacing = Some(length(key, value)?),
             "waterline_spacing" => self.waterline_spacing = Some(length(key, value)?),
+            "buttock_spacing" => self.buttock_spacing = Some(length(key, value)?),
             "spaces" => self.spaces = Some(length(key, value)?),
             "Lpp" => self.stated.length_between_perpendiculars = Some(length(key, value)?),
             "B" => self.stated.breadth = Some(length(key, value)?),
@@ -347,7 +351,7 @@ fn counted_from(lower: &str) -> Option<StationScale> {
 }
 
 /// The distance between stations in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in".
-fn spacing(lower: &str) -> Option<f64> {
+pub(super) fn spacing(lower: &str) -> Option<f64> {
     let length = |words: &[&str]| parse_length(&words.join(" ")).ok().filter(|l| *l > 0.0 && l.is_finite());
     let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
     if let Some((before, _)) = lower.split_once(" apart") {
