@@ -213,7 +213,7 @@ pub(super) fn suspects_line(table: &OffsetTable, found: &Suspects) -> Option<Str
     table.stations.get(worst.station)?;
     let waterline = table.waterlines.get(worst.waterline)?;
     let form = &table.form;
-    let at = match form.z_notation {
+    let at = match lengths::of_heights(form) {
         Notation::Metres => format!("{waterline:.3} m"),
         notation => lengths::place(notation, &form.waterline_heads, *waterline),
     };
@@ -318,8 +318,8 @@ fn suspect_lines(table: &OffsetTable, grid: Grid, suspect: &Suspect) -> String {
     let (column, columns) = grid.columns(table);
     let form = &table.form;
     let (own, across, heads) = match grid {
-        Grid::HalfBreadths => (form.notation, form.z_notation, &form.waterline_heads),
-        Grid::Heights => (form.z_notation, form.notation, &form.buttock_heads),
+        Grid::HalfBreadths => (form.notation, lengths::of_heights(form), &form.waterline_heads),
+        Grid::Heights => (lengths::of_heights(form), form.notation, &form.buttock_heads),
     };
     let verdict = &suspect.verdict;
     let file =
@@ -363,7 +363,7 @@ fn point_lines(table: &OffsetTable, suspect: &PointSuspect) -> String {
     let [[y, z], [near_y, near_z]] = [suspect.given, suspect.expected];
     if let Some(place) = &suspect.line {
         let index = usize::from(suspect.number == PointNumber::Height);
-        let own = if index == 1 { table.form.z_notation } else { table.form.notation };
+        let own = if index == 1 { lengths::of_heights(&table.form) } else { table.form.notation };
         let text = format!(
             "\n{:<4} station {}, {} (row {}, column {}): {}\n     \
              expected {} ± {:.1} mm along the line, off by {} = {:+.1} local noise, wrong with p {}\n",
@@ -384,7 +384,7 @@ fn point_lines(table: &OffsetTable, suspect: &PointSuspect) -> String {
     let own = table.form.notation;
     let pair = |y: f64, z: f64| match own {
         Notation::Metres => format!("y {y:.4}, z {z:.4} m"),
-        _ => format!("y {}, z {}", lengths::length(own, y, 4), lengths::length(table.form.z_notation, z, 4)),
+        _ => format!("y {}, z {}", lengths::length(own, y, 4), lengths::length(lengths::of_heights(&table.form), z, 4)),
     };
     let text = format!(
         "\n{:<4} station {}, {}: {}\n     \

@@ -1,6 +1,6 @@
 //! Lengths of a table on a page: in its own notation, with metres beside another.
 
-use crate::hull::{Kept, OffsetTable};
+use crate::hull::{Kept, OffsetTable, TableForm};
 use crate::units::Notation;
 
 /// Decimals of feet, inches and centimetres where the table has none.
@@ -13,6 +13,14 @@ pub(super) fn length(notation: Notation, length: f64, decimals: usize) -> String
         Notation::Metres => metres,
         Notation::FeetInchesEighths => format!("{} ({metres})", notation.write(length)),
         _ => format!("{} {} ({metres})", notation.write_to(length, Some(DECIMALS)), notation.as_str()),
+    }
+}
+
+/// The notation of heights: that of half-breadths where plain numbers are feet among feet, inches and eighths.
+pub(super) fn of_heights(form: &TableForm) -> Notation {
+    match form.z_notation {
+        Notation::Feet if form.notation == Notation::FeetInchesEighths => form.notation,
+        notation => notation,
     }
 }
 
@@ -71,5 +79,7 @@ mod tests {
             ("21 ft (6.401 m)".into(), "1-0-0 (0.305 m)".into())
         );
         assert_eq!(place(Notation::Metres, &heads, 6.4008), "6.401");
+        let form = TableForm { notation: feet, z_notation: Notation::Feet, ..TableForm::default() };
+        assert_eq!(of_heights(&form), feet);
     }
 }

@@ -273,7 +273,7 @@ fn number(
         let why = outside(&verdicts[0]);
         let message = format!("{numbers}, and nothing states their unit: taken as {}; {why}", plural(best.0));
         reader.problems.warning("W320", FilePosition::FILE, message, &remedy);
-    } else if open.iter().all(|cut| counts(cut)) || own == Notation::FeetInchesEighths {
+    } else if may_count(&open, own) {
         let message = format!("{numbers}, and their spacing is not known: taken as 1 {} apart", best.0.as_str());
         reader.problems.warning("W320", FilePosition::FILE, message, &remedy);
     }
@@ -303,11 +303,18 @@ fn candidates(own: Notation) -> Vec<Notation> {
     [vec![own], others].concat()
 }
 
-/// Whether a position may be a count of spaces: a name with quarters, and no decimal sign.
-fn counts(cut: &Cut<'_>) -> bool {
-    let is_decimal = cut.label.trimmed().contains(['.', ',']);
-    let quarters = cut.number().is_some_and(|number| (4.0 * number).fract().abs() < 1e-9);
-    cut.place.named && quarters && !is_decimal
+/// Whether positions may be counts of spaces: names with quarters and no decimal sign. Of feet, inches and eighths any
+/// number is open, and of small units only numbers that follow each other.
+fn may_count(cuts: &[&Cut<'_>], own: Notation) -> bool {
+    let counts = |cut: &&Cut<'_>| {
+        let quarters = cut.number().is_some_and(|number| (4.0 * number).fract().abs() < 1e-9);
+        cut.place.named && quarters && !cut.label.trimmed().contains(['.', ','])
+    };
+    match own {
+        Notation::FeetInchesEighths => true,
+        Notation::Centimetres | Notation::Millimetres => cuts.iter().all(counts) && follow(cuts),
+        Notation::Metres | Notation::Feet | Notation::Inches => cuts.iter().all(counts),
+    }
 }
 
 /// Whether most numbers are one more than another.
