@@ -37,9 +37,12 @@ pub(super) fn difference(notation: Notation, by: f64, decimals: usize) -> String
 pub(super) fn place(notation: Notation, heads: &[Kept], at: f64) -> String {
     let metres = format!("{at:.3}");
     let near = |head: &&Kept| (head.value - at).abs() < 1e-9;
-    match heads.iter().find(near) {
-        _ if notation == Notation::Metres => metres,
+    // A header may state another unit than the table: `21 ft` in metres.
+    let unit = |text: &str| text.rsplit_once(' ').and_then(|(_, word)| Notation::from_word(word));
+    let is_other = |head: &&Kept| unit(&head.text).unwrap_or(notation) != Notation::Metres;
+    match heads.iter().find(near).filter(is_other) {
         Some(head) => format!("{} ({metres} m)", head.text),
+        None if notation == Notation::Metres => metres,
         None => length(notation, at, 3),
     }
 }
@@ -78,6 +81,8 @@ mod tests {
             (place(feet, &heads, 6.4008), place(feet, &heads, 0.3048)),
             ("21 ft (6.401 m)".into(), "1-0-0 (0.305 m)".into())
         );
+        assert_eq!(place(Notation::Metres, &heads, 6.4008), "21 ft (6.401 m)");
+        let heads = [Kept { text: "WL 3".to_owned(), value: 6.4008 }];
         assert_eq!(place(Notation::Metres, &heads, 6.4008), "6.401");
         let form = TableForm { notation: feet, z_notation: Notation::Feet, ..TableForm::default() };
         assert_eq!(of_heights(&form), feet);
