@@ -67,6 +67,7 @@ mod suspects;
 mod suspects_boats;
 mod suspects_lines;
 mod suspects_outlines;
+mod table_boats;
 mod table_cases;
 mod table_errors;
 mod table_evidence;

@@ -232,3 +232,37 @@ fn a_table_of_lines_is_written_as_lines() {
     let written = write_table(&table, TableWriting::default()).text;
     assert!(written.contains("\nhalf-breadths,chine,1-3-0,1-7-4,1-11-0,1-7-6,"), "{written}");
 }
+
+/// The page of a table in feet has its lengths in feet, inches and eighths, with metres beside.
+#[test]
+fn lengths_of_a_page_are_written_as_in_the_table() {
+    let mut rows = rows();
+    rows[4][6] = wrong(&rows[4][6], "foot").unwrap();
+    let folder = folder("page-of-feet");
+    let path = folder.write("boat.csv", text(&rows));
+    let page = stdout(&program(&["check", &path]));
+    let expected = page.lines().find(|line| line.contains("expected")).unwrap_or_else(|| panic!("{page}"));
+    let after = expected.split("expected ").nth(1).unwrap();
+    let (own, metres) = after.split_once(" (").unwrap_or_else(|| panic!("{expected}"));
+    let parts: Vec<f64> = own.trim_end_matches('+').split('-').map(|part| part.parse().unwrap()).collect();
+    let read = 0.3048 * parts[0] + 0.0254 * (parts[1] + parts[2] / 8.0);
+    let metres: f64 = metres.split(" m)").next().unwrap().parse().unwrap();
+    assert!((read - metres).abs() < 0.0254 / 8.0, "{expected}");
+    assert!(expected.contains("off by +1-"), "{expected}");
+    // A grid with feet over its columns and metres along the hull.
+    let mut grid = "x [m],1 ft,2 ft,3 ft,4 ft,5 ft,6 ft\n".to_owned();
+    for k in 0..12 {
+        let s = (f64::from(k) - 5.5) / 5.5;
+        let cell = |z: f64| {
+            written(
+                12.0 * 5.0 * (1.0 - s * s).max(0.0) * (z / 6.0).sqrt()
+                    + if k == 5 && z > 3.5 && z < 4.5 { 12.0 } else { 0.0 },
+            )
+        };
+        let cells: Vec<String> = (1..=6).map(|j| cell(f64::from(j))).collect();
+        writeln!(grid, "{k},{}", cells.join(",")).unwrap();
+    }
+    let path = folder.write("grid.csv", grid);
+    let page = stdout(&program(&["check", &path]));
+    assert!(page.contains("station 5, waterline 4 ft (1.219 m) (row 7, column 5)"), "{page}");
+}

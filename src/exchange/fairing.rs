@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::number::{cell, json_number, line};
+use super::number::{cell, json_number, line, to_decimals};
 use super::waves::waves_json;
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::Constraint;
@@ -397,6 +397,11 @@ fn without_noise(value: f64) -> f64 {
     if value.abs() < 1e-12 { 0.0 } else { value }
 }
 
+/// A length as people read it: what is beyond the ninth decimal is rounding of feet and inches.
+fn metres(value: Option<f64>) -> String {
+    cell(value.map(|value| to_decimals(value, 9)))
+}
+
 /// One row an offset: station, waterline (`deck` for the deck at side, `point 0.6` for point 6 of outline 0, which
 /// count from 0 as in files that number them), place, before, after, move (outward positive), tolerance, the share of it
 /// that is used, whether it is locked or was left out as a suspect, and its text in the old table and in `written`, the
@@ -427,7 +432,7 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
         let Some(station) = table.stations.get(change.station) else { continue };
         let moved = change.after - change.before;
         let waterline = match change.origin {
-            Origin::HalfBreadth { waterline, .. } => cell(table.waterlines.get(waterline).copied()),
+            Origin::HalfBreadth { waterline, .. } => metres(table.waterlines.get(waterline).copied()),
             Origin::Deck { .. } => "deck".to_owned(),
             Origin::Point { outline, point, .. } => format!("point {outline}.{point}"),
         };
@@ -435,11 +440,11 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
         csv.push_str(&line(&[
             station.station.name.clone(),
             waterline,
-            cell(Some(change.x)),
-            cell(Some(change.z)),
-            cell(Some(change.before)),
-            cell(Some(without_noise(change.after))),
-            cell(Some(without_noise(moved))),
+            metres(Some(change.x)),
+            metres(Some(change.z)),
+            metres(Some(change.before)),
+            metres(Some(without_noise(change.after))),
+            metres(Some(without_noise(moved))),
             cell(change.tolerance),
             used.map(|used| format!("{used:.3}")).unwrap_or_default(),
             yes(change.locked),
@@ -474,10 +479,11 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
         for (w, given) in station.half_breadths.iter().enumerate() {
             let read = |change: &Change| change.station == s && change.origin.waterline() == Some(w);
             let Some(value) = given.value().filter(|_| !outcome.changes.iter().any(read)) else { continue };
-            let z = cell(table.waterlines.get(w).copied());
+            let z = metres(table.waterlines.get(w).copied());
             let text = cell_text(table, s, w);
             let mut row =
-                [station.station.name.clone(), z.clone(), cell(Some(station.station.x)), z, cell(Some(value))].to_vec();
+                [station.station.name.clone(), z.clone(), metres(Some(station.station.x)), z, metres(Some(value))]
+                    .to_vec();
             row.resize(head.len() - 3, String::new());
             row.extend([text.clone(), text, "not used".to_owned()]);
             csv.push_str(&line(&row));

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::failure::Failure;
 use super::files::OutputFile;
+use super::lengths;
 use super::source::{Overrides, read_table_file_with};
 use super::verdict::is_warning;
 use crate::config::{self, Diagnostic};
@@ -16,7 +17,7 @@ use crate::fairing::{
 };
 use crate::hull::{Cell, Entry, OffsetTable, TableForm, Written};
 use crate::plot::{suspect_heights_figure, suspect_points_figure, suspects_figure};
-use crate::units::counted;
+use crate::units::{Notation, counted};
 
 /// Resolution of the picture \[dots per inch\].
 const DOTS_PER_INCH: f64 = 160.0;
@@ -209,15 +210,20 @@ impl Check {
 /// Suspects of a table in one line, the most severe with its place; none without suspects.
 pub(super) fn suspects_line(table: &OffsetTable, found: &Suspects) -> Option<String> {
     let worst = found.suspects.first()?;
-    let station = table.stations.get(worst.station)?;
+    table.stations.get(worst.station)?;
     let waterline = table.waterlines.get(worst.waterline)?;
+    let form = &table.form;
+    let at = match lengths::of_heights(form) {
+        Notation::Metres => format!("{waterline:.3} m"),
+        notation => lengths::place(notation, &form.waterline_heads, *waterline),
+    };
     Some(format!(
-        "{}: run `check`; the worst is station {}, waterline {waterline:.3} m: written {}, {:.4} m, expected {:.4} m",
+        "{}: run `check`; the worst is station {}, waterline {at}: written {}, {}, expected {}",
         counted(found.suspects.len(), "suspect cell"),
-        station.station.name,
+        lengths::station(table, worst.station),
         worst.written,
-        worst.value,
-        worst.verdict.expected
+        lengths::length(form.notation, worst.value, 4),
+        lengths::length(form.notation, worst.verdict.expected, 4)
     ))
 }
 
@@ -289,14 +295,15 @@ pub fn check_page(check: &Check) -> String {
             page.push_str("no suspects\n");
         }
     }
+    let notation = check.table.as_ref().map_or(Notation::Metres, |table| table.form.notation);
     for line in &check.lines {
         page.push_str(&format!(
-            "{} along the {} at {:.3} m, from {:.3} to {:.3} m: declared, it explains the offsets {:.1} times better\n",
+            "{} along the {} at {}, from {} to {}: declared, it explains the offsets {:.1} times better\n",
             line.kind.as_str(),
             line.course.as_str(),
-            line.at,
-            line.reach[0],
-            line.reach[1],
+            lengths::length(notation, line.at, 3),
+            lengths::length(notation, line.reach[0], 3).trim_end_matches(" m"),
+            lengths::length(notation, line.reach[1], 3),
             line.gain
         ));
     }
@@ -309,33 +316,40 @@ pub fn check_page(check: &Check) -> String {
 
 fn suspect_lines(table: &OffsetTable, grid: Grid, suspect: &Suspect) -> String {
     let (column, columns) = grid.columns(table);
+    let form = &table.form;
+    let (own, across, heads) = match grid {
+        Grid::HalfBreadths => (form.notation, lengths::of_heights(form), &form.waterline_heads),
+        Grid::Heights => (lengths::of_heights(form), form.notation, &form.buttock_heads),
+    };
     let verdict = &suspect.verdict;
     let file =
         place(table, grid, suspect).map(|w| format!(" (row {}, column {})", w.row, w.column)).unwrap_or_default();
     let mut text = format!(
-        "\n{:<4} station {}, {column} {:.3}{file}: {}\n     expected {:.4} m ± {:.1} mm, off by {:+.4} m = {:+.1} local noise, wrong with p {}\n",
+        "\n{:<4} station {}, {column} {}{file}: {}\n     expected {} ± {:.1} mm, off by {} = {:+.1} local noise, wrong with p {}\n",
         suspect.id,
-        table.stations[suspect.station].station.name,
-        columns[suspect.waterline],
+        lengths::station(table, suspect.station),
+        lengths::place(across, heads, columns[suspect.waterline]),
         suspect.written,
-        verdict.expected,
+        lengths::length(own, verdict.expected, 4),
         1000.0 * verdict.uncertainty,
-        suspect.value - verdict.expected,
+        lengths::difference(own, suspect.value - verdict.expected, 4),
         verdict.score,
         probability(suspect.probability)
     );
     for (name, [expected, uncertainty]) in [("station", verdict.along_station), (column, verdict.along_waterline)] {
-        text.push_str(&format!("     along the {name:<9} {expected:>9.4} m ± {:.1} mm\n", 1000.0 * uncertainty));
+        let expected = lengths::length(own, expected, 4);
+        text.push_str(&format!("     along the {name:<9} {expected:>11} ± {:.1} mm\n", 1000.0 * uncertainty));
     }
-    text + &named_readings(&suspect.readings)
+    text + &named_readings(own, &suspect.readings)
 }
 
 /// The likeliest hypotheses, a line each.
-fn named_readings(readings: &[Reading]) -> String {
+fn named_readings(notation: Notation, readings: &[Reading]) -> String {
     let named = readings.iter().filter(|r| r.hypothesis != Hypothesis::Noise && r.probability >= LEAST_NAMED);
     let mut text = String::new();
     for reading in named.take(NAMED) {
-        let value = if reading.text.is_empty() { format!("{:.4} m", reading.value) } else { reading.text.clone() };
+        let value =
+            if reading.text.is_empty() { lengths::length(notation, reading.value, 4) } else { reading.text.clone() };
         text.push_str(&format!(
             "     {:<36} {value:>12}  p {}\n",
             reading.hypothesis.as_str(),
@@ -349,35 +363,43 @@ fn point_lines(table: &OffsetTable, suspect: &PointSuspect) -> String {
     let [[y, z], [near_y, near_z]] = [suspect.given, suspect.expected];
     if let Some(place) = &suspect.line {
         let index = usize::from(suspect.number == PointNumber::Height);
+        let own = if index == 1 { lengths::of_heights(&table.form) } else { table.form.notation };
         let text = format!(
             "\n{:<4} station {}, {} (row {}, column {}): {}\n     \
-             expected {:.4} m ± {:.1} mm along the line, off by {:+.4} m = {:+.1} local noise, wrong with p {}\n",
+             expected {} ± {:.1} mm along the line, off by {} = {:+.1} local noise, wrong with p {}\n",
             suspect.id,
-            table.stations[suspect.station].station.name,
+            lengths::station(table, suspect.station),
             point_name(suspect),
             place.row,
             place.column,
             suspect.written,
-            suspect.expected[index],
+            lengths::length(own, suspect.expected[index], 4),
             1000.0 * suspect.noise,
-            suspect.given[index] - suspect.expected[index],
+            lengths::difference(own, suspect.given[index] - suspect.expected[index], 4),
             suspect.score,
             probability(suspect.probability)
         );
-        return text + &named_readings(&suspect.readings);
+        return text + &named_readings(own, &suspect.readings);
     }
+    let own = table.form.notation;
+    let pair = |y: f64, z: f64| match own {
+        Notation::Metres => format!("y {y:.4}, z {z:.4} m"),
+        _ => format!("y {}, z {}", lengths::length(own, y, 4), lengths::length(lengths::of_heights(&table.form), z, 4)),
+    };
     let text = format!(
-        "\n{:<4} station {}, {}: y {y:.4}, z {z:.4} m\n     \
-         {:.4} m off the section, which passes y {near_y:.4}, z {near_z:.4} m\n     \
+        "\n{:<4} station {}, {}: {}\n     \
+         {} off the section, which passes {}\n     \
          {:.1} local noise, wrong with p {}\n",
         suspect.id,
-        table.stations[suspect.station].station.name,
+        lengths::station(table, suspect.station),
         point_name(suspect),
-        suspect.distance,
+        pair(y, z),
+        lengths::length(own, suspect.distance, 4),
+        pair(near_y, near_z),
         suspect.score,
         probability(suspect.probability)
     );
-    text + &named_readings(&suspect.readings)
+    text + &named_readings(own, &suspect.readings)
 }
 
 /// A number of a line, or a point. Points and branches count from 0, as in files that number them.

@@ -89,12 +89,18 @@ pub(super) fn drawn_doubt(table: &OffsetTable, hull: &Hull) -> Option<String> {
     let off = found / drawn - 1.0;
     (drawn > 0.0 && off.abs() > SHARE + 2.0 * bulge / drawn).then(|| {
         format!(
-            "W340 the sections as they are drawn enclose {:.4e} m3 on both sides, and the hull through them {:+.1} % of that: points were \
+            "W340 the sections as they are drawn enclose {} m3 on both sides, and the hull through them {:+.1} % of that: points were \
              left out, or the curves through them are others. Are they in order from keel to deck, and the chines marked?",
-            2.0 * drawn,
+            volume(2.0 * drawn),
             100.0 * off
         )
     })
+}
+
+/// A volume \[m3\] with four digits at least: `1.278`, `70.99`, `123456`.
+fn volume(volume: f64) -> String {
+    let digits = volume.max(f64::MIN_POSITIVE).log10().floor().clamp(-9.0, 3.0);
+    format!("{volume:.0$}", (3.0 - digits) as usize)
 }
 
 #[cfg(test)]

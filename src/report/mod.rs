@@ -28,6 +28,7 @@ mod fit;
 mod generate;
 mod hydrostatic_body;
 mod inspect;
+mod lengths;
 mod lines_plan;
 mod loft;
 mod markdown;

@@ -111,7 +111,7 @@ pub(super) fn unit_lines(pieces: &Pieces, settings: &Settings) -> Vec<String> {
 }
 
 /// The unit that a title or a note states: in brackets, or after `in`.
-fn unit_of_text(text: &str) -> Option<Notation> {
+pub(super) fn unit_of_text(text: &str) -> Option<Notation> {
     let words: Vec<&str> = text.split_whitespace().map(|word| word.trim_matches(['.', ',', ';'])).collect();
     let after_in =
         words.windows(2).find_map(|pair| pair[0].eq_ignore_ascii_case("in").then(|| Notation::from_word(pair[1])));

@@ -110,12 +110,7 @@ impl<'a> TableReader<'a> {
         }
     }
 
-    /// A position across the stations \[m\].
-    pub(super) fn across(&self, position: Position) -> f64 {
-        self.across_by(position, self.settings.waterline_spacing)
-    }
-
-    /// The same with the spacing of numbered waterlines \[m\].
+    /// A position across the stations with the spacing of numbered waterlines \[m\].
     fn across_by(&self, position: Position, spacing: Option<f64>) -> f64 {
         match position.place {
             Coordinate::Number(number) => match spacing {

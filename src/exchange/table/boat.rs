@@ -13,179 +13,31 @@
 //! at waterlines and of heights at buttocks belong to the sections as well, and those of diagonals that words define. Chines and knuckles are knuckles; without
 //! waterlines and buttocks all lines between the lowest and the highest are, with straight panels between them.
 
+mod cuts;
 mod diagonals;
+mod groups;
 
+use self::groups::{Group, Lines, Row, group_of, lines, settled, words};
 use super::around::{UPWARD, says_full};
 use super::assemble::{TableReader, order};
-use super::header::{Axis, Corner, Position, axis_of, counts_down, position};
+use super::header::{Axis, Corner, Position, counts_down, position};
 use super::long::{HALF_OR_FULL, half_taken};
 use super::numbering::{Breadths, origin};
-use super::pieces::is_numeric;
 use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, ends_from_midship, units};
 use super::settings::Settings;
-use std::borrow::Cow;
 
 use crate::hull::{
     Entry, Kept, Marks, OffsetTable, Order, OutlinePoint, StationOffsets, TableForm, TableLayout, Written, WrittenLine,
     WrittenPoint,
 };
 
-/// Fewer lines with heights and half-breadths are the side rows of a matrix.
-const LEAST_LINES: usize = 2;
 /// Points of a section nearer than this are one \[m\].
 const SAME_POINT: f64 = 1e-6;
-
-/// What the numbers of a row are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Group {
-    Positions,
-    Heights,
-    HalfBreadths,
-    Diagonals,
-}
-
-/// A row of the table.
-struct Row<'g> {
-    group: Option<Group>,
-    /// The line, without what the group says.
-    name: String,
-    label: &'g Field,
-    cells: &'g [Field],
-}
-
-/// The header and the rows of a table of lines.
-struct Lines<'g> {
-    heads: &'g [Field],
-    rows: Vec<Row<'g>>,
-    /// All labels, those of groups among them.
-    labels: Vec<&'g Field>,
-    /// What words say of where diagonals lie.
-    definitions: Vec<String>,
-}
-
-fn words(text: &str) -> Vec<String> {
-    let lower = text.to_lowercase().replace(['\u{2010}', '\u{2011}'], "-");
-    lower
-        .split(|c: char| !c.is_alphanumeric() && !matches!(c, '\'' | '"' | '.'))
-        .filter(|w| !w.is_empty())
-        .map(str::to_owned)
-        .collect()
-}
-
-/// The group that a label names, and the words that name something else.
-fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
-    let mut group = None;
-    let mut rest = Vec::new();
-    let mut has_origin = false;
-    for word in words(text) {
-        match word.trim_end_matches('.') {
-            "above" | "below" => has_origin = true,
-            // From where heights count.
-            "bl" | "dwl" | "lwl" | "wl" | "waterline" if has_origin => {}
-            "height" | "heights" | "ht" | "hts" | "hab" | "elevation" | "elevations" => {
-                group = group.or(Some(Group::Heights))
-            }
-            "half" | "halves" | "semi" | "semibreadth" | "semibreadths" | "hb" | "breadth" | "breadths"
-            | "halfbreadth" | "halfbreadths" | "width" | "widths" | "halfwidth" | "halfwidths" => {
-                group = Some(Group::HalfBreadths)
-            }
-            "diagonal" | "diagonals" | "diag" => group = Some(Group::Diagonals),
-            "length" | "dist" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
-                group = group.or(Some(Group::Positions));
-            }
-            "of" | "full" | "whole" | "base" | "baseline" | "line" | "at" | "from" | "centreline" | "centerline"
-            | "c.l" | "cl" => {}
-            _ => rest.push(word),
-        }
-    }
-    (group, rest)
-}
-
-/// The rows with their groups; none where the table has no labels and cells.
-fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
-    let at = rows.iter().position(|row| row.iter().filter(|field| !field.is_blank()).count() > 1)?;
-    let head = &rows[at];
-    let body: Vec<&Vec<Field>> = rows[at + 1..].iter().filter(|row| !row.is_empty()).collect();
-    let width = head.len();
-    let labels = (0..width.min(3))
-        .take_while(|&j| body.iter().all(|row| row.get(j).is_none_or(|field| !is_numeric(field))))
-        .count();
-    if labels == 0 || labels + 2 > width {
-        return None;
-    }
-    let (mut list, mut all) = (Vec::new(), Vec::new());
-    let mut group = None;
-    for row in body {
-        let cells = row.get(labels..).unwrap_or_default();
-        let mut named = row.iter().take(labels).filter(|field| !field.is_blank());
-        let mut name = Vec::new();
-        let mut own = None;
-        for field in named.clone() {
-            let (group, rest) = group_of(&field.text);
-            own = own.or(group);
-            name.extend(rest);
-        }
-        all.extend(named.clone());
-        let Some(label) = named.next_back() else { continue };
-        if own.is_some() && own != Some(Group::Positions) {
-            group = own;
-        }
-        if cells.iter().all(Field::is_blank) {
-            continue;
-        }
-        list.push(Row { group: own.or(group), name: name.join(" "), label, cells });
-    }
-    Some(Lines { heads: &head[labels..], rows: list, labels: all, definitions: Vec::new() })
-}
-
-impl Lines<'_> {
-    /// Whether a line has rows of a group.
-    fn has(&self, name: &str, group: Group) -> bool {
-        self.rows.iter().any(|row| row.group == Some(group) && row.name == name)
-    }
-
-    /// The names of lines, which are no positions of waterlines or buttocks.
-    fn names(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = Vec::new();
-        for row in self.rows.iter().filter(|row| matches!(row.group, Some(Group::Heights | Group::HalfBreadths))) {
-            if !row.name.is_empty() && !names.contains(&row.name.as_str()) && across(row).is_none() {
-                names.push(&row.name);
-            }
-        }
-        names
-    }
-}
-
-/// Where a row of a waterline or a buttock lies.
-fn across(row: &Row<'_>) -> Option<Position> {
-    let known = matches!(axis_of(row.label.trimmed()), Some(Axis::Waterline | Axis::Buttock)) || is_numeric(row.label);
-    position(row.label.trimmed(), false).ok().filter(|_| known)
-}
 
 /// Whether rows are lines with heights and half-breadths.
 pub(super) fn is_boat(rows: &[Vec<Field>]) -> bool {
     !settled(&diagonals::without_definitions(rows).0).is_empty()
-}
-
-/// The rows of the file, or its columns where its stations stand below each other.
-fn settled(rows: &[Vec<Field>]) -> Cow<'_, [Vec<Field>]> {
-    let is_boat = |rows: &[Vec<Field>]| {
-        lines(rows).is_some_and(|lines| {
-            let both = |name: &&&str| lines.has(name, Group::Heights) && lines.has(name, Group::HalfBreadths);
-            lines.names().iter().filter(both).count() >= LEAST_LINES
-        })
-    };
-    if is_boat(rows) {
-        return Cow::Borrowed(rows);
-    }
-    let filled: Vec<&Vec<Field>> = rows.iter().filter(|row| row.iter().any(|field| !field.is_blank())).collect();
-    let width = filled.iter().map(|row| row.len()).max().unwrap_or(0);
-    let turned: Vec<Vec<Field>> = (0..width)
-        .map(|j| filled.iter().map(|row| row.get(j).cloned().unwrap_or_default()).collect())
-        .filter(|column: &Vec<Field>| column.iter().any(|field| !field.is_blank()))
-        .collect();
-    if is_boat(&turned) { Cow::Owned(turned) } else { Cow::Borrowed(&[]) }
 }
 
 /// Which end the name of a station is: -1 aft, 1 forward.
@@ -230,7 +82,9 @@ pub(super) fn read(
     let lines = Lines { definitions, ..lines(&rows)? };
     refuse_downward(&lines, problems);
     let full = breadths(&lines, settings, problems);
-    let settings = &Settings { full: Some(full), ..settings.clone() };
+    let mut settings = Settings { full: Some(full), ..settings.clone() };
+    lines.units(&mut settings, problems);
+    let settings = &settings;
     let positions_row = lines.rows.iter().find(|row| row.group == Some(Group::Positions));
     let fields: &[Field] = positions_row.map_or(lines.heads, |row| row.cells);
     let heads = positions(lines.heads, fields, form.decimal_comma, problems)?;
@@ -452,43 +306,18 @@ fn points(lines: &Lines<'_>, heads: &[(usize, Position)], xs: &[f64], reader: &m
             }
         }
     }
+    cuts::points(lines, heads, reader, &mut points);
     for row in &lines.rows {
-        cut_points(lines, row, heads, reader, &mut points);
+        match row.group {
+            Some(Group::Diagonals) => diagonals::points(row, &lines.definitions, heads, reader, &mut points),
+            None => {
+                let message = format!("left out: the row '{}'", row.label.trimmed());
+                reader.problems.warning("W332", row.label.place(), message, "");
+            }
+            Some(_) => {}
+        }
     }
     points
-}
-
-/// The points of a waterline, a buttock or a diagonal.
-fn cut_points(
-    lines: &Lines<'_>,
-    row: &Row<'_>,
-    heads: &[(usize, Position)],
-    reader: &mut TableReader<'_>,
-    points: &mut Vec<LinePoint>,
-) {
-    let half = match row.group {
-        Some(Group::HalfBreadths) => true,
-        Some(Group::Heights) => false,
-        Some(Group::Positions) => return,
-        Some(Group::Diagonals) => {
-            return diagonals::points(row, lines.definitions.as_slice(), heads, reader, points);
-        }
-        None => {
-            let message = format!("left out: the row '{}'", row.label.trimmed());
-            return reader.problems.warning("W332", row.label.place(), message, "");
-        }
-    };
-    let Some(place) = across(row) else { return };
-    let place = reader.across(place);
-    for (station, (at, _)) in heads.iter().enumerate() {
-        let Some(field) = row.cells.get(*at) else { continue };
-        let cell = reader.cell(field, half);
-        if let Some(value) = cell.value() {
-            let (y, z) = if half { (value, place) } else { (place, value) };
-            let cells = if half { [cell.written, None] } else { [None, cell.written] };
-            points.push(LinePoint { station, name: row.label.trimmed().to_owned(), is_cut: true, y, z, cells });
-        }
-    }
 }
 
 /// A section from the keel to the sheer.

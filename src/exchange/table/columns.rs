@@ -2,7 +2,7 @@
 //!
 //! | column | headers |
 //! |---|---|
-//! | x | `x`, `position`, `length`, `longitudinal position`, `distance`, `station position`, `x from AP` |
+//! | x | `x`, `pos_x`, `position`, `length`, `longitudinal position`, `LongPos`, `abscissa`, `distance`, `station position`, `frame location`, `x from AP` |
 //! | station | `station`, `stn`, `st`, `sta`, `section`, `frame`, `ordinate`, `name` |
 //! | z | `z`, `height`, `elevation`, `waterline height`, `height above base` |
 //! | waterline | `waterline`, `wl`, `level`, `draught` |
@@ -10,7 +10,8 @@
 //! | index | none, `i`, `j`, `k`, `n`, `no`, `id`, `index`, `row`, `hull`, `ship`, and stations or waterlines with `id`, `no` or `index` |
 //! | curve, flag, loop, point | `curve`, `kind`, `flag`, `mark`, `loop`, `branch`, `point` |
 //!
-//! A unit may follow (`y_mm`, `Offset [m]`), and what a fraction is of (`x/L`, `z/T`, `y/(B/2)`, `x_frac`).
+//! A unit may follow (`y_mm`, `Offset [m]`), and what a fraction is of (`x/L`, `z/T`, `z/D`, `y/(B/2)`, `x_frac`). Columns of
+//! the names of lines (`line`) are indices.
 
 use super::header::unit_of;
 use crate::units::Notation;
@@ -37,6 +38,7 @@ pub(super) enum Column {
 pub(super) enum Whole {
     Breadth,
     HalfBreadth,
+    Depth,
     /// The header does not say it.
     Unsaid,
 }
@@ -60,6 +62,9 @@ fn whole_of(name: &str) -> (String, Option<Whole>) {
                 None => (bare.to_owned(), Some(whole)),
             };
         }
+    }
+    if let Some(bare) = close.strip_suffix("/d") {
+        return (bare.to_owned(), Some(Whole::Depth));
     }
     if let Some(bare) = ["/lpp", "/lbp", "/l", "/t"].iter().find_map(|end| close.strip_suffix(end)) {
         return (bare.to_owned(), Some(Whole::Unsaid));
@@ -98,7 +103,7 @@ pub(super) fn column(name: &str) -> Option<Named> {
             _ => Column::Index,
         },
         "" | "i" | "j" | "k" | "n" | "no" | "nr" | "id" | "idx" | "index" | "#" | "row" | "hull" | "ship"
-        | "vessel" | "model" | "unnamed: 0" => Column::Index,
+        | "vessel" | "model" | "line" | "line name" | "unnamed: 0" => Column::Index,
         words => axis(words)?,
     };
     Some(Named { column, unit, from_ap, fraction })
@@ -117,8 +122,21 @@ pub(super) fn is_ordinate(name: &str) -> bool {
     lower.split(|c: char| !c.is_alphabetic()).any(|word| word == "ordinate")
 }
 
+/// The words of the columns of points, for messages.
+pub(super) const KNOWN: &str = "x or station, z or height, y or half-breadth, each perhaps with a unit, as 'x [m]'";
+
+/// `x` of `pos x`, `x coordinate` or `x position`.
+fn bare_axis(words: &str) -> Option<&str> {
+    let around = |word: &&str| {
+        matches!(*word, "pos" | "pos." | "position" | "coord" | "coordinate" | "co" | "ordinate" | "point" | "value")
+    };
+    let mut others = words.split(' ').filter(|word| !around(word));
+    let axis = others.next().filter(|word| matches!(*word, "x" | "y" | "z"));
+    axis.filter(|_| others.next().is_none())
+}
+
 fn axis(words: &str) -> Option<Column> {
-    Some(match words {
+    Some(match bare_axis(words).unwrap_or(words) {
         "station" | "stations" | "stn" | "sta" | "st" | "section" | "frame" | "ordinate" | "name" | "spant" => {
             Column::Station
         }
@@ -129,11 +147,18 @@ fn axis(words: &str) -> Option<Column> {
         | "position"
         | "pos"
         | "distance"
-        | "x position"
+        | "abscissa"
+        | "longpos"
+        | "long pos"
+        | "longitudinal"
+        | "longitudinal location"
         | "length"
         | "station position"
         | "frame position"
         | "section position"
+        | "station location"
+        | "frame location"
+        | "section location"
         | "station x"
         | "x station" => Column::X,
         "loop" | "branch" => Column::Loop,
@@ -147,7 +172,6 @@ fn axis(words: &str) -> Option<Column> {
         | "waterline height"
         | "height above base"
         | "height above baseline"
-        | "z position"
         | "waterline z" => Column::Z,
         "waterline" | "water line" | "wl" | "level" | "draught" | "draft" | "wasserlinie" => Column::Waterline,
         "curve" | "kind" => Column::Curve,

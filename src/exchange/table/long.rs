@@ -5,8 +5,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::columns::{Column, Named, Whole, breadths, column, is_ordinate};
+use super::around::{UPWARD, says_full, unit_of_text};
+use super::columns::{Column, KNOWN, Named, Whole, breadths, column, is_ordinate};
 use super::fields::decimals;
+use super::header::{begins_as_number, counts_down, position};
 use super::outline::{keel_of, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
 use super::ratio::missing_dimensions;
@@ -20,17 +22,37 @@ use crate::hull::{OffsetTable, TableForm};
 const LARGEST_STEP: f64 = 2.0;
 /// Heights over the draught are no larger.
 const MOST_DRAUGHTS: f64 = 3.0;
+/// Fewer common heights are those of keel, chine and sheer, and make no waterlines.
+const LEAST_HEIGHTS: usize = 5;
+/// More columns are no points.
+const MOST_COLUMNS: usize = 6;
 
 /// The columns of a header.
 struct Columns {
     all: Vec<Option<Named>>,
     /// The column of breadths without a word for half or full.
     unsaid: Option<usize>,
+    /// That of full breadths, and that of heights that count downward.
+    full: Option<usize>,
+    downward: Option<usize>,
 }
 
 impl Columns {
     fn of(header: &[Field]) -> Self {
-        let mut columns = Self { all: header.iter().map(|field| column(&field.text)).collect(), unsaid: None };
+        let all = header.iter().map(|field| column(&field.text)).collect();
+        let mut columns = Self { all, unsaid: None, full: None, downward: None };
+        let named = |column| Named { column, unit: None, from_ap: false, fraction: None };
+        let full = header.iter().position(|field| says_full(&field.text));
+        if let Some(at) = full.filter(|_| columns.find(Column::Y).is_none()) {
+            let bare = field_without(&header[at].text, ["full", "whole"]);
+            columns.all[at] = Some(breadths(&bare).unwrap_or(named(Column::Y)));
+            columns.full = full;
+        }
+        let downward = header.iter().position(|field| counts_down(field.trimmed()));
+        if let Some(at) = downward.filter(|_| columns.height().is_none()) {
+            columns.all[at] = Some(named(Column::Z));
+            columns.downward = downward;
+        }
         if columns.find(Column::Y).is_none()
             && let Some((at, named)) =
                 header.iter().enumerate().find_map(|(at, field)| Some((at, breadths(&field.text)?)))
@@ -62,6 +84,39 @@ impl Columns {
     }
 }
 
+/// A header in small letters without some words.
+fn field_without(text: &str, words: [&str; 2]) -> String {
+    words.into_iter().fold(text.to_lowercase(), |text, word| text.replace(word, "")).trim().to_owned()
+}
+
+/// The rows from the header on: titles of one field may stand above it.
+fn from_header(rows: &[Vec<Field>]) -> &[Vec<Field>] {
+    let filled = |row: &Vec<Field>| row.iter().filter(|field| !field.is_blank()).count();
+    let at = rows.iter().position(|row| filled(row) > 1).unwrap_or(0);
+    &rows[at..]
+}
+
+/// Whether rows are points under words of which too few are known: no matrix has the same position twice.
+pub(super) fn unknown_words(rows: &[Vec<Field>]) -> Option<&[Field]> {
+    let rows = from_header(rows);
+    let (header, body) = rows.split_first()?;
+    let are_words = header
+        .iter()
+        .all(|field| !field.is_blank() && !begins_as_number(&field.text) && position(field.trimmed(), false).is_err());
+    let body: Vec<&Vec<Field>> = body.iter().filter(|row| row.iter().any(|field| !field.is_blank())).collect();
+    let numbers = body.iter().all(|row| row.len() == header.len() && row.iter().all(|f| begins_as_number(&f.text)));
+    let firsts = |k: usize| body.iter().map(|row| row[k].trimmed()).collect::<BTreeSet<_>>().len();
+    let fits = (3..=MOST_COLUMNS).contains(&header.len()) && are_words && body.len() > header.len() && numbers;
+    (fits && 2 * firsts(0) <= body.len()).then_some(header)
+}
+
+/// Says which words are known.
+pub(super) fn refuse_words(header: &[Field], problems: &mut Problems) {
+    let unknown = header.iter().find(|field| column(&field.text).is_none()).unwrap_or(&header[0]);
+    let message = format!("one point a row, and no word that is known for its columns: '{}'", unknown.trimmed());
+    problems.error("E310", unknown, message, &format!("Name the columns {KNOWN}"));
+}
+
 /// What settles whether breadths are half ones.
 pub(super) const HALF_OR_FULL: &str = "Give breadths = \"half\" or breadths = \"full\" in the conventions";
 
@@ -72,7 +127,7 @@ pub(super) fn half_taken(name: &str) -> String {
 
 /// Whether the first row names the columns of points and no kind of curve.
 pub(super) fn is_long(rows: &[Vec<Field>]) -> bool {
-    let Some(header) = rows.iter().find(|row| !row.is_empty()) else { return false };
+    let Some(header) = from_header(rows).first() else { return false };
     let columns = Columns::of(header);
     let is_word =
         |(field, named): (&Field, &Option<Named>)| named.is_some() || field.text.contains(char::is_alphabetic);
@@ -100,10 +155,23 @@ pub(super) fn read(
     settings: &Settings,
     problems: &mut Problems,
 ) -> Option<OffsetTable> {
-    let header = rows.iter().find(|row| !row.is_empty())?;
+    let titles = &rows[..rows.len() - from_header(rows).len()];
+    let rows = from_header(rows);
+    let header = rows.first()?;
     let columns = Columns::of(header);
+    if let Some(at) = columns.downward {
+        problems.error("E311", &header[at], "heights count downward, and are not read so".to_owned(), UPWARD);
+        return None;
+    }
     let mut settings = settings.clone();
     units(&columns, &mut settings);
+    let title = titles.iter().flatten().find(|field| !field.is_blank());
+    settings.units = settings.units.or(title.and_then(|title| unit_of_text(title.trimmed())));
+    if let Some(at) = columns.full.filter(|_| settings.full.is_none()) {
+        let message = format!("full breadths, by '{}'", header[at].trimmed());
+        problems.warning("W320", header[at].place(), message, HALF_OR_FULL);
+        settings.full = Some(true);
+    }
     left_out(header, &columns, problems);
     if let Some(at) = columns.unsaid.filter(|_| settings.full.is_none()) {
         problems.warning("W320", header[at].place(), half_taken(header[at].trimmed()), HALF_OR_FULL);
@@ -115,9 +183,13 @@ pub(super) fn read(
     distances(&mut points, &columns, comma, &settings, problems);
     waterlines(&mut points, &columns, &settings, problems);
     one_side(&mut points, comma, problems);
-    let curve = if on_waterlines(&points) { "WL" } else { "SEC" };
+    let (on_waterlines, heights) = on_waterlines(&points);
+    // Points of keel, chine and sheer, station after station, are no waterlines.
+    let few = heights < LEAST_HEIGHTS && columns.find(Column::Z).is_some() && by_stations(&points);
+    let curve = if on_waterlines && !few { "WL" } else { "SEC" };
     problems.note(match curve {
         "WL" => "the points stand on common heights and are read as half-breadths at waterlines".to_owned(),
+        _ if on_waterlines => format!("the points stand on {heights} heights and are read as sections"),
         _ => "the points stand on different heights and are read as sections".to_owned(),
     });
     let mut table = tidy::read(&tidy_rows(points, curve), form, &settings, problems)?;
@@ -170,7 +242,7 @@ fn points(rows: &[Vec<Field>], header: &[Field], columns: &Columns, problems: &m
     };
     let blank = Field::default();
     let mut points = Vec::new();
-    for row in rows.iter().filter(|row| !row.is_empty()).skip(1) {
+    for row in rows.iter().skip(1).filter(|row| row.iter().any(|field| !field.is_blank())) {
         if row.len() != header.len() {
             let message = format!("the row has {} fields, the header has {}", row.len(), header.len());
             problems.error("E307", FilePosition::row(row[0].row), message, "");
@@ -254,12 +326,20 @@ fn fractions(
         );
     }
     let stated = &settings.stated;
-    if let Some(problem) = missing_dimensions(stated, [true; 3]) {
+    let of_depth = of(columns.height()) == Some(Whole::Depth);
+    let depth = stated.depth.filter(|depth| *depth > 0.0);
+    if of_depth && depth.is_none() {
+        let message = "heights are fractions of the depth, which is missing, or not above 0".to_owned();
+        problems.error("E327", FilePosition::FILE, message, "Give D in the conventions");
+        return None;
+    }
+    if let Some(problem) = missing_dimensions(stated, [true, true, !of_depth]) {
         problems.error("E327", FilePosition::FILE, problem.0, problem.1);
         return None;
     }
     let [length, breadth, draught] =
         [stated.length_between_perpendiculars, stated.breadth, stated.draught].map(|v| v.unwrap_or(1.0));
+    let (draught, of_height) = depth.filter(|_| of_depth).map_or((draught, "T"), |depth| (depth, "D"));
     let largest = points.iter().filter_map(|point| number(&point.y, comma)).map(f64::abs).fold(0.0, f64::max);
     let half = match y {
         Some(Whole::Breadth) => breadth,
@@ -288,8 +368,9 @@ fn fractions(
             scale(&mut point.y, half, comma);
         }
     }
-    problems
-        .note(format!("fractions of L_PP {length} m, B {breadth} m and T {draught} m, where the headers name such"));
+    problems.note(format!(
+        "fractions of L_PP {length} m, B {breadth} m and {of_height} {draught} m, where the headers name such"
+    ));
     Some(y.map(|_| half))
 }
 
@@ -362,19 +443,28 @@ fn waterlines(points: &mut [Point], columns: &Columns, settings: &Settings, prob
     }
 }
 
-/// Whether the points stand where stations and waterlines cross: half of the crossings at least, and hardly one twice.
-fn on_waterlines(points: &[Point]) -> bool {
-    let place = |point: &Point| {
-        if point.x.is_blank() { point.station.trimmed().to_owned() } else { point.x.trimmed().to_owned() }
-    };
-    let stations: BTreeSet<String> = points.iter().map(place).collect();
+/// The station of a point, as it is written.
+fn place(point: &Point) -> &str {
+    if point.x.is_blank() { point.station.trimmed() } else { point.x.trimmed() }
+}
+
+/// Whether the points stand where stations and waterlines cross: half of the crossings at least, and hardly one twice; and the
+/// number of heights.
+fn on_waterlines(points: &[Point]) -> (bool, usize) {
+    let stations: BTreeSet<&str> = points.iter().map(place).collect();
     let mut heights: BTreeMap<&str, usize> = BTreeMap::new();
     for point in points {
         *heights.entry(point.z.trimmed()).or_default() += 1;
     }
-    let crossings: BTreeSet<(String, &str)> = points.iter().map(|point| (place(point), point.z.trimmed())).collect();
+    let crossings: BTreeSet<(&str, &str)> = points.iter().map(|point| (place(point), point.z.trimmed())).collect();
     let twice = points.len() - crossings.len();
-    2 * points.len() > stations.len() * heights.len() && 4 * twice < stations.len()
+    (2 * points.len() > stations.len() * heights.len() && 4 * twice < stations.len(), heights.len())
+}
+
+/// Whether the points of a station follow each other.
+fn by_stations(points: &[Point]) -> bool {
+    let stations: BTreeSet<&str> = points.iter().map(place).collect();
+    points.chunk_by(|a, b| place(a) == place(b)).count() < 2 * stations.len()
 }
 
 fn tidy_rows(points: Vec<Point>, curve: &str) -> Vec<Vec<Field>> {

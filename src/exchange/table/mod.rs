@@ -245,6 +245,10 @@ fn of_grid(
             TableLayout::Matrix
         }
     });
+    if let Some(header) = long::unknown_words(&grid.rows).filter(|_| layout == TableLayout::Matrix) {
+        long::refuse_words(header, problems);
+        return None;
+    }
     // The comma of a pair stands between its two numbers.
     let decimal_comma =
         layout != TableLayout::Pairs && settings.decimal_comma.unwrap_or_else(|| commas(&grid.rows, grid.separator));

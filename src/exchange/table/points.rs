@@ -8,6 +8,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
+use super::around::unit_of_text;
 use super::columns::{self, Column};
 use super::fields::{Separator, TextLine, finish, lines, plain_number};
 use super::header::From;
@@ -36,8 +37,27 @@ fn column(name: &str) -> Option<(Column, f64, bool)> {
     point.then(|| (named.column, named.unit.map_or(1.0, |unit| unit.metres(1.0)), named.from_ap))
 }
 
+/// Marks between fields.
+const MARKS: [char; 3] = [',', ';', '\t'];
+
+/// Whether a line has a field, and is no comment.
+fn has_field(line: &str) -> bool {
+    let line = line.trim_start();
+    !line.starts_with('#') && line.contains(|c: char| !c.is_whitespace() && !MARKS.contains(&c))
+}
+
+/// Whether a line has one field alone, as titles have.
+fn is_title(line: &str) -> bool {
+    !line.trim().trim_end_matches(MARKS).contains(MARKS)
+}
+
+/// The lines of fields from the head on: titles may stand above it.
+fn content(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter(|line| has_field(line)).skip_while(|line| is_title(line))
+}
+
 fn head(text: &str) -> Option<(char, Vec<Option<Column>>)> {
-    let line = text.lines().find(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'))?;
+    let line = content(text).next()?;
     let mark = separator(line);
     Some((mark, line.split(mark).map(|name| column(name).map(|(kind, _, _)| kind)).collect()))
 }
@@ -54,7 +74,7 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
 
 /// The text with decimal points for the decimal commas that another mark between columns allows.
 fn pointed(text: &str, mark: char) -> Cow<'_, str> {
-    let rows = || text.lines().filter(|line| !line.trim_start().starts_with('#')).skip(1);
+    let rows = || content(text).skip(1);
     let commas = mark != ',' && rows().any(|line| line.contains(',')) && !rows().any(|line| line.contains('.'));
     if commas { Cow::Owned(text.replace(',', ".")) } else { Cow::Borrowed(text) }
 }
@@ -63,8 +83,7 @@ fn pointed(text: &str, mark: char) -> Cow<'_, str> {
 fn is_grouped(text: &str, mark: char, columns: &[Option<Column>]) -> bool {
     let at = |kind| columns.iter().position(|column| *column == Some(kind));
     let Some(at) = at(Column::Station).or_else(|| at(Column::X)) else { return true };
-    let rows = text.lines().filter(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#')).skip(1);
-    let names: Vec<&str> = rows.filter_map(|line| line.split(mark).nth(at)).map(str::trim).collect();
+    let names: Vec<&str> = content(text).skip(1).filter_map(|line| line.split(mark).nth(at)).map(str::trim).collect();
     let different: BTreeSet<&str> = names.iter().copied().collect();
     // An x that comes again in disorder is an error of the file; waterlines one after the other bring all of them again.
     names.chunk_by(|a, b| a == b).count() < 2 * different.len().max(2)
@@ -117,11 +136,11 @@ pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<R
     let mark = head(text).map_or(',', |(mark, _)| mark);
     let pointed = pointed(text, mark);
     let text = pointed.as_ref();
-    let lines: Vec<TextLine<'_>> = lines(text, Separator::Exactly(mark))
-        .into_iter()
-        .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
-        .collect();
-    let Some((head, lines)) = lines.split_first() else {
+    let mut rows = lines(text, Separator::Exactly(mark));
+    rows.retain(|line| has_field(line.text));
+    let titles = rows.iter().take_while(|line| is_title(line.text)).count();
+    let title: Option<String> = rows[..titles].first().map(|line| line.text.trim_end_matches(MARKS).to_owned());
+    let Some((head, lines)) = rows[titles..].split_first() else {
         problems.error("E324", FilePosition::FILE, "the file is empty".to_owned(), "");
         return finish(problems, None);
     };
@@ -164,6 +183,7 @@ pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<R
             rows.retain(|_| at.next().is_some_and(|k| !doubled.contains(&k)));
         }
     }
+    settings.units = settings.units.or(title.as_deref().and_then(unit_of_text));
     let stated = [settings.x_units.or(settings.units), settings.units, settings.z_units.or(settings.units)];
     let has_eighths = rows.iter().any(|row| row.plain.contains(&false));
     if !is_declared && (has_eighths || stated.iter().any(Option::is_some)) {
@@ -193,7 +213,7 @@ pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<R
     }
     let sections = group(&rows, &mut problems);
     let stated = settings.stated;
-    let name = own.name.unwrap_or_default();
+    let name = own.name.or(title).unwrap_or_default();
     table(Body { name, stated, sections, origin, unit }, problems)
 }
 

@@ -15,6 +15,7 @@
 //! station_spacing = 2.1       # between station numbers
 //! spaces = 20                 # station numbers in Lpp
 //! waterline_spacing = 0.6     # between the numbers of WL 1, WL 2, ...
+//! buttock_spacing = 0.5       # between the numbers of Butt 1, Butt 2, ... of a table of lines
 //! Lpp = 62.0                  # B, T, D likewise
 //! separator = ";"             # , ; | tab blank
 //! decimal = ","               # , .
@@ -48,7 +49,7 @@
 //! m`; capital and small letters are the same. A comment that is no `key = value` with a single word before the sign is
 //! a comment, but for what it says of stations: `# Stations 3 ft apart`, `# Stations numbered from FP`.
 
-mod prose;
+pub(super) mod prose;
 
 use self::prose::Sentences;
 use super::header::From;
@@ -79,6 +80,7 @@ pub(super) struct Settings {
     pub(super) stations: Option<StationScale>,
     pub(super) station_spacing: Option<f64>,
     pub(super) waterline_spacing: Option<f64>,
+    pub(super) buttock_spacing: Option<f64>,
     pub(super) spaces: Option<f64>,
     pub(super) separator: Option<char>,
     /// Name of the sheet of a workbook.
@@ -125,7 +127,7 @@ pub(super) struct BodyFrame {
 }
 
 /// Keys of `[table]`.
-pub(super) const KEYS: [&str; 27] = [
+pub(super) const KEYS: [&str; 28] = [
     "name",
     "units",
     "x_units",
@@ -136,6 +138,7 @@ pub(super) const KEYS: [&str; 27] = [
     "stations",
     "station_spacing",
     "waterline_spacing",
+    "buttock_spacing",
     "spaces",
     "Lpp",
     "B",
@@ -251,6 +254,7 @@ impl Settings {
             }
             "station_spacing" => self.station_spacing = Some(length(key, value)?),
             "waterline_spacing" => self.waterline_spacing = Some(length(key, value)?),
+            "buttock_spacing" => self.buttock_spacing = Some(length(key, value)?),
             "spaces" => self.spaces = Some(length(key, value)?),
             "Lpp" => self.stated.length_between_perpendiculars = Some(length(key, value)?),
             "B" => self.stated.breadth = Some(length(key, value)?),

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 
+use super::header::begins_as_number;
 use super::problem::{Field, FilePosition, Problems};
 use crate::units::counted;
 
@@ -87,9 +88,34 @@ fn is_around_fraction(c: char) -> bool {
     matches!(c, '(' | ')' | '!' | 'K' | 'T')
 }
 
+/// `1-10` for 1-10-0 where all numbers of a table are written so: feet and inches.
+fn feet_and_inches(rows: &mut [Vec<Field>], problems: &mut Problems) {
+    let is_pair = |text: &str| {
+        let parts = text.trim().trim_start_matches('-').trim_matches(is_around_fraction).split_once('-');
+        let inches = |text: &str| text.len() < 3 && text.parse::<u32>().is_ok_and(|inches| inches < 12);
+        parts.is_some_and(|(feet, rest)| are_digits(feet) && are_digits(rest) && feet.len() < 4 && inches(rest))
+    };
+    let head = rows.iter().position(|row| !row.is_empty()).map_or(0, |at| at + 1);
+    let cells =
+        || rows.iter().skip(head).flat_map(|row| row.iter().skip(1)).filter(|field| begins_as_number(&field.text));
+    let count = cells().filter(|field| is_pair(&field.text)).count();
+    let Some(first) = cells().find(|field| is_pair(&field.text)).cloned() else { return };
+    if count < LEAST * LEAST || cells().count() > count {
+        return;
+    }
+    for field in rows.iter_mut().skip(head).flat_map(|row| row.iter_mut().skip(1)).filter(|field| is_pair(&field.text))
+    {
+        let core = field.text.trim().trim_matches(is_around_fraction).to_owned();
+        field.text = field.text.replacen(&core, &format!("{core}-0"), 1);
+    }
+    let message = format!("{} as '{}': read as feet and inches", counted(count, "cell"), first.trimmed());
+    problems.warning("W320", FilePosition::FILE, message, "Write 1-10-0 for 1 ft 10 in");
+}
+
 /// Gives the cells dashes where most cells of the table have three numbers with another sign between them.
 pub(super) fn settle(rows: &mut [Vec<Field>], problems: &mut Problems) {
     fractions(rows, problems);
+    feet_and_inches(rows, problems);
     let Some(head) = rows.iter().position(|row| !row.is_empty()) else { return };
     let of = |sign: char| rows.iter().flatten().filter(move |field| dashed(&field.text, sign).is_some());
     let Some((count, sign)) = SIGNS.map(|sign| (of(sign).count(), sign)).into_iter().max_by_key(|(count, _)| *count)
@@ -147,10 +173,15 @@ mod tests {
         assert_eq!(settled("x,1\n0,1.2.3\n1,(1.2.4K)\n2,-1.10.7+").0, ["0", "1-2-3", "1", "(1-2-4K)", "2", "-1-10-7+"]);
         assert_eq!(settled("x,1\n0,1 2 3\n1,1  2 4\n2,1 10 7\u{bd}").0[5], "1-10-7\u{bd}");
         assert_eq!(settled("x,1\n0,1/2/3\n1,1/2/4\n2,1/10/7").0[5], "1-10-7");
+        let inches = "x,1,2,3\n0,1-2,1-3,1-4\n1,1-6,(1-7),1-11K\n2,2-0,2-1,0-2";
+        assert_eq!(settled(inches).0[6..8], ["(1-7-0)", "1-11-0K"]);
         // A slip of the pen, and versions or dates.
-        for text in
-            ["x,1\n0,1.2.3\n1,1.2\n2,3.4", "x,1\n0,3/4/2005\n1,3/5/2005\n2,3/6/2005", "x,1\n0,1 2\n1,2 3\n2,3 4"]
-        {
+        for text in [
+            "x,1\n0,1.2.3\n1,1.2\n2,3.4",
+            "x,1\n0,3/4/2005\n1,3/5/2005\n2,3/6/2005",
+            "x,1\n0,1 2\n1,2 3\n2,3 4",
+            "x,1,2,3\n0,1-2,1-3,1-4\n1,1-6,1-7,1-14\n2,2-0,2-1,0.2",
+        ] {
             assert_eq!((settled(text).1, settled(text).2), (0, false), "{text}");
         }
         assert!(settled("x,1\n0,1.2.3\n1,1.2.4\n2,1.10.7\n3,1.2").2);

@@ -469,6 +469,9 @@ fn suspect(judge: &Judge, (r, at): (usize, usize), numbers: &Numbers<'_>, wrong:
         let way = |k: &usize| (foot[numbers[*k].index] - given[numbers[*k].index]).abs();
         best.0 = (0..numbers.len()).rev().max_by(|a, b| way(a).total_cmp(&way(b)))?;
     }
+    // Without a text a reading has what the neighbours predict.
+    let predicted = foot[numbers.get(best.0)?.index];
+    list.iter_mut().filter(|reading| reading.text.is_empty()).for_each(|reading| reading.value = predicted);
     let readings = readings(list);
     let noise = readings.iter().find(|r| r.hypothesis == Hypothesis::Noise).map_or(0.0, |r| r.probability);
     let &Number { index, number, text: ref written, writing, ref line } = numbers.get(best.0)?;

@@ -139,10 +139,16 @@ fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
 }
 
 /// Tables of section outlines: with their knuckles as lines of the net where there are any, else, and where these make
-/// no hull, from section to section by girth.
+/// no hull, or sections have level or falling parts above the bottom, from section to section by girth.
 fn sections(table: &OffsetTable) -> Result<Fitted, FitError> {
     if !upright::has_knuckles(table) {
         return skin::fit(table);
+    }
+    if upright::profile::has_ledges(table) {
+        let mut fitted = skin::fit(table)?;
+        let note = "sections have level or falling parts above the bottom: knuckles are corners of the sections only";
+        fitted.notes.insert(0, note.to_owned());
+        return Ok(fitted);
     }
     match upright::fit(table) {
         Err(FitError::Hull(error)) => {

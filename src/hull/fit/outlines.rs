@@ -3,8 +3,9 @@
 //! Where a section has several points at one height, its greatest half-breadth there counts; between points it is the
 //! monotone piecewise cubic (Fritsch & Butland 1984) of y and of z over the chord length.
 
-use super::super::{Hull, OffsetTable, OutlinePoint, StationOffsets};
+use super::super::{Hull, Marks, OffsetTable, OutlinePoint, StationOffsets};
 use super::monotone::monotone_cubic;
+use std::borrow::Cow;
 
 /// Heights that count as one where flats are looked for, over the height of the table.
 const CLOSEST: f64 = 1e-3;
@@ -23,6 +24,42 @@ fn usable(point: &&OutlinePoint) -> bool {
 pub fn only_outlines(table: &OffsetTable) -> bool {
     let cells = table.stations.iter().flat_map(|s| &s.half_breadths).filter(|c| c.value().is_some()).count();
     cells == 0 && table.stations.iter().any(|s| s.outlines.iter().any(|o| o.len() > 1))
+}
+
+/// Parts of a straight panel.
+const PARTS: usize = 4;
+
+/// The table with more points on its straight panels: a knuckle and the next point, where this is a knuckle or an end, are
+/// joined by a straight line.
+pub(super) fn with_straight_panels(table: &OffsetTable) -> Cow<'_, OffsetTable> {
+    let knuckles = table.stations.iter().flat_map(|s| s.outlines.iter().flatten()).filter(|p| p.marks.knuckle).count();
+    if knuckles == 0 {
+        return Cow::Borrowed(table);
+    }
+    let mut table = table.clone();
+    for outline in table.stations.iter_mut().flat_map(|station| &mut station.outlines) {
+        *outline = with_panels(outline);
+    }
+    Cow::Owned(table)
+}
+
+fn with_panels(outline: &[OutlinePoint]) -> Vec<OutlinePoint> {
+    let last = outline.len().saturating_sub(1);
+    let is_break = |k: usize| k == 0 || k == last || outline[k].marks.knuckle;
+    let mut points = Vec::with_capacity(PARTS * outline.len());
+    for (k, pair) in outline.windows(2).enumerate() {
+        let [a, b] = [pair[0], pair[1]];
+        points.push(a);
+        if is_break(k) && is_break(k + 1) && (a.marks.knuckle || b.marks.knuckle) {
+            points.extend((1..PARTS).map(|part| {
+                let share = part as f64 / PARTS as f64;
+                let [y, z] = [a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)];
+                OutlinePoint { y, z, marks: Marks::default() }
+            }));
+        }
+    }
+    points.extend(outline.last());
+    points
 }
 
 /// The greatest half-breadth of a branch at height `z`; none where the branch does not reach.

@@ -160,9 +160,10 @@ pub(super) const REMARKS: [Explanation; 42] = [
     Explanation {
         code: "W336",
         title: "Lines that cross",
-        cause: "Two lines of a table of lines stand in another order at a station than at most others.",
+        cause: "Two lines of a table of lines stand in another order at a station than at most others. \
+                Or a waterline or buttock is outside the section of the other lines at most stations.",
         example: "A chine of 6-7-1 for 0-7-1 is above the sheer.",
-        remedy: "Correct the height at that station.",
+        remedy: "Correct the height at that station, or the position of the waterline or buttock.",
     },
     Explanation {
         code: "W338",

@@ -9,7 +9,8 @@ use super::super::assemble::TableReader;
 use super::super::header::Position;
 use super::super::pieces::is_numeric;
 use super::super::problem::Field;
-use super::{LinePoint, Row, words};
+use super::LinePoint;
+use super::groups::{Row, words};
 use crate::units::{CellEntry, CellRules, Notation, parse_cell};
 
 /// What the program needs to place a diagonal.

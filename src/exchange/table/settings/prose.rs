@@ -165,7 +165,7 @@ fn stations_from(lower: &str) -> Option<From> {
 }
 
 /// The distance between lines of these names in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in".
-fn spacing(lower: &str, names: &[&str]) -> Option<f64> {
+pub(in super::super) fn spacing(lower: &str, names: &[&str]) -> Option<f64> {
     let length = |words: &[&str]| {
         let text = words.join(" ");
         parse_length(text.trim_end_matches('.')).ok().filter(|l| *l > 0.0 && l.is_finite())

@@ -48,7 +48,7 @@ fn spline(error: SplineError) -> FitError {
 /// [`FitError::TooFew`] below two sections, [`FitError::Hull`] when the surface is no hull.
 pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
     let mut notes = Vec::new();
-    let sections = section::sections(table, &mut notes);
+    let sections = section::sections(&outlines::with_straight_panels(table), &mut notes);
     let too_few = FitError::TooFew { stations: sections.len(), waterlines: table.waterlines.len(), least: LEAST };
     if sections.len() < LEAST {
         return Err(too_few);

@@ -65,6 +65,11 @@ impl Profile {
     }
 }
 
+/// Whether a section has level or falling parts above the bottom, which a half-breadth over the height cannot follow.
+pub(in crate::hull::fit) fn has_ledges(table: &OffsetTable) -> bool {
+    table.stations.iter().any(|station| section(table, station).is_some_and(|(_, ledge, _)| ledge))
+}
+
 /// The sections of a table in order of x; stations without any offset are left out with a note.
 pub(super) fn profiles(table: &OffsetTable, notes: &mut Vec<String>) -> Vec<Profile> {
     let mut result: Vec<Profile> = Vec::new();
