@@ -26,7 +26,7 @@ fn wigley(folder: &Folder) -> PathBuf {
     folder.write("wigley.csv", &text).into()
 }
 
-fn waves<'o>(outcome: &'o Outcome) -> &'o [WaveTrade] {
+fn waves(outcome: &Outcome) -> &[WaveTrade] {
     &outcome.faired.waves.as_ref().unwrap().trades
 }
 

@@ -205,11 +205,11 @@ impl Job<'_> {
     /// The hull nearest to starts with different parts of the shift: the first one without more inflections than the scaled
     /// parent, or the one with the fewest.
     fn nearest(&self) -> Result<Started, Vec<Refusal>> {
-        self.best().map_err(|failure| failure.map_or(Vec::new(), |(start, failed)| self.infeasible(&start, &failed)))
+        self.best().map_err(|failure| failure.map_or(Vec::new(), |failure| self.infeasible(&failure.0, &failure.1)))
     }
 
     /// The same; where none is found, the first start with why it has none.
-    pub(super) fn best(&self) -> Result<Started, Option<(Hull, Failed)>> {
+    pub(super) fn best(&self) -> Result<Started, Option<Box<(Hull, Failed)>>> {
         let planes = counted_planes(self.scaled, self.conventions.stations);
         let before = inflections(self.scaled, &planes);
         let mut best: Option<((usize, bool, bool), Started)> = None;
@@ -233,7 +233,7 @@ impl Job<'_> {
                 Err(failed) => failure = failure.or(Some((start, failed))),
             }
         }
-        best.map(|(_, found)| found).ok_or(failure)
+        best.map(|(_, found)| found).ok_or(failure.map(Box::new))
     }
 
     /// The scaled parent with a level shift that brings volume and LCB so far towards their targets, and its amplitudes.

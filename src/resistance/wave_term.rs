@@ -118,9 +118,6 @@ impl WaveRequest {
     }
 }
 
-/// R_W of a hull at the Froude numbers \[N\].
-///
-
 /// Why R_W is no term of a program.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoWaveTerm {
