@@ -10,6 +10,7 @@ mod architecture;
 mod blend;
 mod bodies;
 mod body_cases;
+mod body_skins;
 mod book;
 mod catalogue;
 mod charts;

@@ -5,13 +5,17 @@
 //! one line or none, and lines end on edges that two triangles share. Sections of closed meshes are therefore closed
 //! loops at every X, without tolerances.
 
+mod boxes;
 mod flood;
+mod rims;
 mod shells;
 mod surfaces;
 
 pub use flood::DrySkin;
 pub use shells::InnerShells;
 pub(super) use surfaces::{Bends, corners};
+
+use rims::Rims;
 
 use super::mesh::{MeshReport, measure};
 use super::vertices::Known;
@@ -21,8 +25,14 @@ use std::collections::HashMap;
 /// Corners of half a body nearer to the centreplane than this part of its largest extent are on it.
 const CENTREPLANE: f64 = 1e-6;
 
+/// Rims nearer than this part of the size of the body are in one place.
+const ONE: f64 = 1e-4;
+
 /// The inner edge of one side of a body is this near to the centreplane, over the half-breadth.
 const NEAR: f64 = 0.02;
+
+/// Parts whose least and greatest y add to less than this part of the size of the body are symmetric about the centreplane.
+const ASTRIDE: f64 = 1e-4;
 
 /// A part of the side's area from which triangles on the centreplane are a wall that closes it.
 const WALL: f64 = 0.1;
@@ -114,9 +124,10 @@ impl TriangleMesh {
     }
 
     /// Of each triangle those beside it, edge by edge, and whether both run through the edge in the same direction; none where
-    /// an edge is not of two triangles.
+    /// an edge is open, or of an odd number. Where shells share an edge, as many of its triangles run through it in one
+    /// direction as in the other. Then the first of both are beside each other, and so on: files have shell after shell.
     fn neighbours(&self) -> Vec<[Option<(usize, bool)>; 3]> {
-        // Sorted, the two triangles of an edge stand beside each other; where three and more meet nothing follows.
+        // Sorted, the triangles of an edge stand beside each other.
         let mut edges = Vec::with_capacity(3 * self.triangles.len());
         for (k, t) in self.triangles.iter().enumerate() {
             edges.extend((0..3).map(|e| {
@@ -126,11 +137,18 @@ impl TriangleMesh {
         }
         edges.sort_unstable();
         let mut neighbours: Vec<[Option<(usize, bool)>; 3]> = vec![[None; 3]; self.triangles.len()];
-        for both in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            if let [a, b] = both {
-                let alike = a.4 == b.4;
-                neighbours[a.2][a.3] = Some((b.2, alike));
-                neighbours[b.2][b.3] = Some((a.2, alike));
+        let mut join = |a: (usize, usize), b: (usize, usize), alike: bool| {
+            neighbours[a.0][a.1] = Some((b.0, alike));
+            neighbours[b.0][b.1] = Some((a.0, alike));
+        };
+        for all in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            if let [a, b] = all {
+                join((a.2, a.3), (b.2, b.3), a.4 == b.4);
+                continue;
+            }
+            let running = |back: bool| all.iter().filter(move |edge| edge.4 == back).map(|edge| (edge.2, edge.3));
+            if running(true).count() == running(false).count() {
+                running(true).zip(running(false)).for_each(|(a, b)| join(a, b, false));
             }
         }
         neighbours
@@ -142,6 +160,7 @@ impl TriangleMesh {
     pub fn oriented(mut self) -> (Self, usize) {
         let neighbours = self.neighbours();
         let mut turn: Vec<Option<bool>> = vec![None; self.triangles.len()];
+        let mut parts = Vec::new();
         for first in 0..self.triangles.len() {
             if turn[first].is_some() {
                 continue;
@@ -159,16 +178,19 @@ impl TriangleMesh {
                     }
                 }
             }
-            let sum: f64 = part
+            parts.push(part);
+        }
+        for skin in self.skins(&parts, &turn) {
+            let sum: f64 = skin
                 .iter()
-                .map(|&k| {
+                .map(|&(k, opposite)| {
                     let [a, b, c] = self.triangles[k].map(|v| self.vertices[v]);
                     let along = cross(minus(b, a), minus(c, a))[1] * (a[1] + b[1] + c[1]);
-                    if turn[k] == Some(true) { -along } else { along }
+                    if (turn[k] == Some(true)) != opposite { -along } else { along }
                 })
                 .sum();
-            if sum < 0.0 {
-                part.iter().for_each(|&k| turn[k] = turn[k].map(|t| !t));
+            for (k, opposite) in skin {
+                turn[k] = turn[k].map(|turned| (turned != opposite) != (sum < 0.0));
             }
         }
         let mut turned = 0;
@@ -179,9 +201,73 @@ impl TriangleMesh {
         (self, turned)
     }
 
-    /// What of a body this is, by where it lies beside the centreplane y = 0.
+    /// The triangles of parts that close each other along their rims, and whether a part is to be turned so that it runs
+    /// through them as its neighbours do. Triangles of which `turn` is true are turned before.
+    fn skins(&self, parts: &[Vec<usize>], turn: &[Option<bool>]) -> Vec<Vec<(usize, bool)>> {
+        let mut seen = self.clone();
+        for (triangle, _) in seen.triangles.iter_mut().zip(turn).filter(|(_, turn)| **turn == Some(true)) {
+            triangle.swap(1, 2);
+        }
+        let rims = Rims::of(&seen, parts, ONE);
+        let mut beside: Vec<Vec<(usize, bool)>> = vec![Vec::new(); parts.len()];
+        for ([a, b], alike) in rims.joints(&seen) {
+            beside[a].push((b, alike));
+            beside[b].push((a, alike));
+        }
+        let mut opposite: Vec<Option<bool>> = vec![None; parts.len()];
+        let mut skins = Vec::new();
+        for first in 0..parts.len() {
+            if opposite[first].is_some() {
+                continue;
+            }
+            opposite[first] = Some(false);
+            let (mut skin, mut next) = (vec![first], 0);
+            while let Some(&part) = skin.get(next) {
+                next += 1;
+                for &(other, alike) in &beside[part] {
+                    if opposite[other].is_none() {
+                        opposite[other] = opposite[part].map(|own| own != alike);
+                        skin.push(other);
+                    }
+                }
+            }
+            let triangles = skin.iter().flat_map(|&part| parts[part].iter().map(move |&k| (k, part)));
+            skins.push(triangles.map(|(k, part)| (k, opposite[part] == Some(true))).collect());
+        }
+        skins
+    }
+
+    /// The parts that lie on both sides of y = 0 alike, and the rest.
+    #[must_use]
+    pub fn astride(&self) -> [Self; 2] {
+        let Some([least, greatest]) = self.bounds() else { return [self.clone(), self.clone()] };
+        let near = ASTRIDE * length(minus(greatest, least));
+        let mut is_astride = vec![false; self.triangles.len()];
+        for shell in self.shells() {
+            let points = || shell.iter().flat_map(|&t| self.triangles[t]).map(|v| self.vertices[v][1]);
+            let [low, high] = [points().fold(f64::MAX, f64::min), points().fold(f64::MIN, f64::max)];
+            if high > near && (low + high).abs() <= near {
+                shell.iter().for_each(|&t| is_astride[t] = true);
+            }
+        }
+        [true, false].map(|wanted| {
+            let chosen = self.corners().zip(&is_astride).filter(|(_, astride)| **astride == wanted);
+            Self::from_corners(chosen.map(|(corners, _)| corners))
+        })
+    }
+
+    /// What of a body this is, by where its parts that are not symmetric about the centreplane y = 0 lie beside it. Where these
+    /// are the lesser ones it is whole.
     #[must_use]
     pub fn part(&self) -> BodyPart {
+        let [both, rest] = self.astride();
+        let extent = |mesh: &Self| mesh.bounds().map(|[low, high]| [high[0] - low[0], high[1].max(-low[1])]);
+        let Some(main) = extent(&rest) else { return BodyPart::Whole };
+        let is_lesser = extent(&both).is_some_and(|other| main.iter().zip(other).any(|(own, other)| *own < other));
+        if is_lesser { BodyPart::Whole } else { rest.side() }
+    }
+
+    fn side(&self) -> BodyPart {
         let Some([least, greatest]) = self.bounds() else { return BodyPart::Whole };
         let side = if least[1] + greatest[1] >= 0.0 { 1.0 } else { -1.0 };
         let [inner, outer] = [f64::min, f64::max].map(|pick| pick(side * least[1], side * greatest[1]));
@@ -199,18 +285,19 @@ impl TriangleMesh {
         if wall > WALL * skin { BodyPart::BesideWall } else { BodyPart::Half { inner } }
     }
 
-    /// The whole of a body of which one side is given: corners within `slack` \[m\] of the centreplane are put on it,
+    /// The whole of a body of which one side is given, but for parts that are symmetric about the centreplane: corners within `slack` \[m\] of the centreplane are put on it,
     /// triangles there are left out, the others mirrored.
     #[must_use]
     pub fn mirrored(&self, slack: f64) -> Self {
         let Some([least, greatest]) = self.bounds() else { return self.clone() };
         let slack = slack.max(CENTREPLANE * (0..3).map(|k| greatest[k] - least[k]).fold(0.0, f64::max));
+        let [both, rest] = self.astride();
         let flat = |[x, y, z]: [f64; 3]| if y.abs() <= slack { [x, 0.0, z] } else { [x, y, z] };
         let half: Vec<[[f64; 3]; 3]> =
-            self.corners().map(|t| t.map(flat)).filter(|t| t.iter().any(|point| point[1].abs() > 0.0)).collect();
+            rest.corners().map(|t| t.map(flat)).filter(|t| t.iter().any(|point| point[1].abs() > 0.0)).collect();
         let mirror = |[x, y, z]: [f64; 3]| [x, 0.0 - y, z];
         let other = half.iter().map(|&[a, b, c]| [mirror(a), mirror(c), mirror(b)]);
-        Self::from_corners(half.iter().copied().chain(other))
+        Self::from_corners(half.iter().copied().chain(other).chain(both.corners()))
     }
 
     /// The section by the plane x = `x` (see the head), lines in the order of the triangles where they begin.

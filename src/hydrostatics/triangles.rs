@@ -33,6 +33,9 @@ const STATIONS: usize = 200;
 /// near, by the second: a row of vertices at the waterline has errors of rounding.
 const TOP: [f64; 2] = [1e-5, 1e-9];
 
+/// Vertices as near to a draught as this part of the depth are at it, which is what coordinates of 32 bits are good for.
+const SEAM: f64 = 1e-6;
+
 /// Centre of buoyancy off the centreplane, over the breadth, from which a remark says so.
 const ASYMMETRIC: f64 = 1e-4;
 
@@ -342,8 +345,10 @@ impl CurvesOfForm {
         let depth = bounds[1][2] - bounds[0][2];
         let near_top = |t: f64| (t - bounds[1][2]).abs() <= TOP[0] * depth;
         let heights = [Some(mesh), finer].into_iter().flatten().flat_map(|mesh| mesh.vertices.iter().map(|v| v[2]));
-        let lowest = heights.filter(|&z| near_top(z)).fold(bounds[1][2], f64::min);
-        let levels: Vec<f64> = sorted.iter().map(|&t| if near_top(t) { lowest - TOP[1] * depth } else { t }).collect();
+        let lowest = heights.clone().filter(|&z| near_top(z)).fold(bounds[1][2], f64::min);
+        let seams = over_seams(&sorted, heights, depth);
+        let level = |(&t, &over): (&f64, &f64)| if near_top(t) { lowest - TOP[1] * depth } else { over };
+        let levels: Vec<f64> = sorted.iter().zip(&seams).map(level).collect();
         let midship = 0.5 * particulars.length_between_perpendiculars;
         let length = bounds[1][0] - bounds[0][0];
         let places: Vec<f64> =
@@ -386,6 +391,21 @@ impl CurvesOfForm {
         let rows = draughts.iter().map(|draught| found(draught).unwrap_or_else(|| empty(draught))).collect();
         Self { conventions: *conventions, rows }
     }
+}
+
+/// Draughts, which rise, above the vertices that are as good as at them, where these differ: parts that are joined there end and
+/// begin within errors of rounding, and count once.
+fn over_seams(draughts: &[f64], heights: impl Iterator<Item = f64>, depth: f64) -> Vec<f64> {
+    let near = SEAM * depth;
+    let mut ends: Vec<[f64; 2]> = draughts.iter().map(|&t| [t, t]).collect();
+    for z in heights {
+        let from = draughts.partition_point(|&t| t < z - near);
+        for (end, _) in ends[from..].iter_mut().zip(&draughts[from..]).take_while(|(_, t)| **t <= z + near) {
+            *end = [end[0].min(z), end[1].max(z)];
+        }
+    }
+    let over = |[low, high]: [f64; 2]| if low < high { high + TOP[1] * depth } else { high };
+    ends.into_iter().map(over).collect()
 }
 
 /// Centre of buoyancy \[m\] and heel \[rad\] of a body that is not symmetrical.

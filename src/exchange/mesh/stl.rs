@@ -1,6 +1,7 @@
 //! STL (3D Systems, 1988): binary, all regions in one solid; and ASCII, a named solid for each region.
 //!
-//! A file is binary when its length is 84 + 50 n bytes, n being the number in bytes 81 to 84, whatever it begins with.
+//! A file is binary when its length is 84 + 50 n bytes, n being the number in bytes 81 to 84, whatever it begins with. It is
+//! too where it has bytes of 0 and is longer, or states no triangles. Names are UTF-8 or what is nearest to it.
 //! Normals of files are not read.
 
 use std::fmt::Write as _;
@@ -26,9 +27,24 @@ fn binary_count(bytes: &[u8]) -> Option<usize> {
     (count > 0 && bytes.len() == HEADER + RECORD * count).then_some(count)
 }
 
+/// The number of triangles of a binary file with bytes after its last triangle, or that states none; none of a text.
+fn binary_count_at_least(bytes: &[u8]) -> Option<usize> {
+    let whole = bytes.len().checked_sub(HEADER)? / RECORD;
+    let count = match stated_count(bytes)? {
+        0 if bytes.len() == HEADER + RECORD * whole => whole,
+        count => count,
+    };
+    (bytes.contains(&0) && (1..=whole).contains(&count)).then_some(count)
+}
+
+/// Text without the mark of its coding.
+fn unmarked(text: &str) -> &str {
+    text.trim_start_matches('\u{feff}')
+}
+
 /// Whether a text begins as ASCII STL does; some programs write its words in capitals.
 fn is_solid(text: &str) -> bool {
-    text.split_whitespace().next().is_some_and(|word| word.eq_ignore_ascii_case("solid"))
+    unmarked(text).split_whitespace().next().is_some_and(|word| word.eq_ignore_ascii_case("solid"))
 }
 
 /// Whether these are the bytes of an STL file.
@@ -46,7 +62,7 @@ pub(in super::super) fn is_stl(bytes: &[u8]) -> bool {
 /// # Errors
 /// Every fault of the file, up to a number of them.
 pub(in super::super) fn read_stl(bytes: &[u8]) -> Result<Vec<(String, TriangleMesh)>, Vec<RecordFault>> {
-    match binary_count(bytes) {
+    match binary_count(bytes).or_else(|| binary_count_at_least(bytes)) {
         Some(count) => read_binary(bytes, count).map(|mesh| vec![("body".to_owned(), mesh)]),
         None => read_ascii(bytes),
     }
@@ -59,7 +75,7 @@ fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<RecordFau
         return Err(faults.list);
     }
     let mut corners = Vec::with_capacity(count);
-    for (k, record) in bytes[HEADER..].chunks_exact(RECORD).enumerate() {
+    for (k, record) in bytes[HEADER..].chunks_exact(RECORD).take(count).enumerate() {
         let mut triangle = [[0.0; 3]; 3];
         for (slot, real) in triangle.iter_mut().flatten().zip(record[12..48].chunks_exact(4)) {
             *slot = f64::from(f32::from_le_bytes([real[0], real[1], real[2], real[3]]));
@@ -78,7 +94,7 @@ fn read_ascii(bytes: &[u8]) -> Result<Vec<(String, TriangleMesh)>, Vec<RecordFau
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
     // Bytes of a binary file after a header that begins with `solid`.
-    let is_binary = bytes.iter().take(1000).any(|byte| *byte == 0 || *byte > 0x7f);
+    let is_binary = bytes.iter().take(1000).any(|byte| *byte == 0);
     if !is_solid(&text) || is_binary {
         let count = stated_count(bytes).unwrap_or(0);
         let wanted = HEADER + RECORD * count;
@@ -86,7 +102,7 @@ fn read_ascii(bytes: &[u8]) -> Result<Vec<(String, TriangleMesh)>, Vec<RecordFau
         return Err(faults.list);
     }
     let (mut mesh, mut triangle) = (Polygons::default(), Vec::new());
-    for (k, line) in text.lines().enumerate() {
+    for (k, line) in unmarked(&text).lines().enumerate() {
         let mut words = line.split_whitespace();
         match words.next().map(str::to_ascii_lowercase).as_deref() {
             Some("vertex") => {

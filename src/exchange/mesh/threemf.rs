@@ -111,6 +111,10 @@ impl Model<'_, '_> {
         }
         let id = shown.attribute("objectid").unwrap_or_default();
         let object = *self.objects.get(id).ok_or_else(|| format!("no object {id}"))?;
+        // Supports of a printer are no part of what is printed.
+        if matches!(object.attribute("type"), Some("support" | "solidsupport")) {
+            return Ok(());
+        }
         let rows = match shown.attribute("transform") {
             Some(text) => {
                 product(transform(text).ok_or_else(|| format!("transform {text}: expected 12 numbers"))?, above)

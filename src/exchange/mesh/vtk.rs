@@ -101,7 +101,7 @@ impl File<'_> {
                 }
                 ["POINT_DATA" | "CELL_DATA", ..] => break,
                 // What a file says of all of it.
-                ["FIELD", ..] => return self.numbers.fault(line, "fields before the points are not read"),
+                ["FIELD", _, count] => self.pass_fields(count, coding)?,
                 _ => {}
             }
         }
@@ -126,6 +126,32 @@ impl File<'_> {
                     return None;
                 }
             }
+        }
+        Some(())
+    }
+
+    /// Passes over the arrays of a field: each has its name, components, tuples and kind in a line before its values.
+    fn pass_fields(&mut self, count: &str, coding: Coding) -> Option<()> {
+        for _ in 0..self.count(count)? {
+            let line = loop {
+                match self.numbers.rest_of_line()? {
+                    "" => {}
+                    line => break line,
+                }
+            };
+            let [_, components, tuples, kind] = line.split_whitespace().collect::<Vec<_>>()[..] else {
+                return self.numbers.fault(line, "expected name, components, tuples and kind of an array");
+            };
+            let values = self.count(components)?.saturating_mul(self.count(tuples)?);
+            let kind = self.kind(kind)?;
+            let width = if coding == Coding::Text { 2 } else { kind.bytes() };
+            if !self.numbers.holds(values, width, "values") {
+                return None;
+            }
+            self.numbers.coding = coding;
+            let passed = (0..values).try_for_each(|_| self.numbers.skip(kind, "a value of a field"));
+            self.numbers.coding = Coding::Text;
+            passed?;
         }
         Some(())
     }

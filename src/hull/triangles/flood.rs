@@ -344,11 +344,15 @@ impl TriangleMesh {
         !inner.is_empty() && body - within > HOLLOW * body.abs()
     }
 
-    /// Edges of three triangles and more.
+    /// Edges of three triangles and more that are no common edges of closed shells.
     fn branches(&self) -> HashSet<[usize; 2]> {
-        let mut edges: Vec<[usize; 2]> = self.triangles.iter().flat_map(|t| edges(*t)).collect();
-        edges.sort_unstable();
-        edges.chunk_by(|a, b| a == b).filter(|uses| uses.len() > 2).map(|uses| uses[0]).collect()
+        let neighbours = self.neighbours();
+        let open: HashSet<[usize; 2]> = self.open_edges().into_iter().map(|[p, q]| [p.min(q), p.max(q)]).collect();
+        let alone = self.triangles.iter().zip(neighbours).flat_map(|(t, beside)| {
+            let [ab, bc, ca] = edges(*t);
+            [ab, bc, ca].into_iter().zip(beside).filter(|(_, other)| other.is_none()).map(|(edge, _)| edge)
+        });
+        alone.filter(|edge| !open.contains(edge)).collect()
     }
 
     fn is_joined(&self, shell: &[usize], branches: &HashSet<[usize; 2]>) -> bool {

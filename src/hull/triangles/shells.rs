@@ -1,7 +1,7 @@
 //! Shells of a mesh inside others: tanks, decks and bulkheads add nothing to a body.
 //!
-//! A shell is what hangs together across edges of two triangles. A point is inside the other shells where these, with their
-//! openings covered, have a winding number of 1 about it. That is the sum of the solid angles of their triangles, over 4 pi.
+//! A shell is what hangs together across edges of two triangles. Shells that close each other along their rims are one skin. A
+//! point is inside another skin where this, with its openings covered, has a winding number of 1 about it. That is the sum of the solid angles of their triangles, over 4 pi.
 //! On a smooth skin it is 1/2. With the corners a, b, c counted from the point, a solid angle is this (van Oosterom and
 //! Strackee 1983).
 //!
@@ -9,33 +9,31 @@
 //! tan(omega / 2) = a.(b x c) / (|a||b||c| + a.b |c| + b.c |a| + c.a |b|)
 //! ```
 
-use super::{TriangleMesh, open_edges, triangle_area};
+use super::boxes::around;
+use super::rims::{CLOSING, Rims};
+use super::{ONE, TriangleMesh, open_edges, triangle_area};
 
 mod union;
 
 use crate::spline::{cross, dot, length, minus};
 use std::collections::{HashMap, HashSet};
-use std::f64::consts::PI;
-
-/// The winding number from which a point is inside, between that of the skin and that of the inside.
-const INSIDE: f64 = 0.75;
+use union::{Fate, Skin};
 
 /// Shells of a mesh beyond which it is a heap of loose patches.
 const SHELLS: usize = 4096;
 
-/// Triangles of a shell at which it is looked at, at most and at least.
-const SAMPLES: [usize; 2] = [24, 4];
-
-/// Solid angles that are computed, about.
-const ANGLES: usize = 20_000_000;
+/// What skins that only touch share, over what they enclose, at most.
+const TOUCHING: f64 = 1e-7;
 
 /// What shells of a mesh do inside others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct InnerShells {
     /// Triangles of shells inside, which add nothing.
     pub inside: usize,
-    /// Triangles of shells that reach into others.
+    /// Triangles of shells that reach into others, but for the largest of them.
     pub crossing: usize,
+    /// Whether these only touch the others.
+    pub touching: bool,
     /// Whether these are cut to the skin of the union. Otherwise what they share counts twice.
     pub united: bool,
     /// Shells, where there are too many to be looked at.
@@ -45,17 +43,11 @@ pub struct InnerShells {
 /// What an open sheet encloses with its openings covered, over the power 3/2 of its area.
 const FLAT: f64 = 1e-3;
 
-/// Part of the edges of a sheet that may lie in an opening of the other shells.
-const CLOSING: f64 = 0.5;
-
 /// Openings longer than this part of the body, from lower than this part of its height on, and of more than this part of its
 /// area, are no decks.
 const LONG: f64 = 0.2;
 const LOW: f64 = 0.25;
 const WIDE: f64 = 0.02;
-
-/// Vertices nearer than this part of the size of the body are one.
-const ONE: f64 = 1e-4;
 
 impl TriangleMesh {
     /// The mesh without the shells inside others, and what was found. The triangles face outward.
@@ -67,96 +59,135 @@ impl TriangleMesh {
             found.unseen = if shells.len() > SHELLS { shells.len() } else { 0 };
             return (self, found);
         }
-        let closed: Vec<Vec<[[f64; 3]; 3]>> = shells.iter().map(|shell| self.covered(shell)).collect();
-        let [most, least] = SAMPLES;
-        let samples = (ANGLES / (self.triangles.len() * shells.len().min(64))).clamp(least, most);
-        let bounds: Vec<[[f64; 3]; 2]> = closed.iter().map(|shell| union::bounds(shell)).collect();
-        let mut inside = vec![false; self.triangles.len()];
-        for (k, shell) in shells.iter().enumerate() {
-            let looked_at = shell.iter().step_by(shell.len().div_ceil(samples));
-            let is_inside = |&t: &usize| {
-                let middle = mean(self.triangles[t].into_iter().map(|v| self.vertices[v]), 3);
-                // About a point outside its bounds a closed shell does not wind.
-                let holds = |other: &usize| {
-                    let [low, high] = bounds[*other];
-                    *other != k && (0..3).all(|axis| (low[axis]..=high[axis]).contains(&middle[axis]))
-                };
-                let others = (0..closed.len()).filter(holds).flat_map(|other| &closed[other]);
-                others.map(|corners| solid_angle(corners.map(|corner| minus(corner, middle)))).sum::<f64>()
-                    > INSIDE * 4.0 * PI
-            };
-            let looked: Vec<bool> = looked_at.map(is_inside).collect();
-            if looked.iter().all(|inside| *inside) {
-                shell.iter().for_each(|&t| inside[t] = true);
-                found.inside += shell.len();
-            } else if looked.contains(&true) {
-                found.crossing += shell.len();
+        let skins = self.closed_skins(&shells);
+        let counts = |skin: &Skin| skin.triangles.len();
+        let Some(fates) = union::fates(&self, &skins) else {
+            found.crossing = skins.iter().skip(1).map(counts).sum();
+            return (self, found);
+        };
+        let (mut reaching, mut before) = (Vec::new(), 0.0);
+        for skin in &skins {
+            if skin.triangles.iter().all(|&t| fates[t] == Fate::Within) {
+                found.inside += counts(skin);
+                continue;
+            }
+            before += enclosed(skin.triangles.iter().map(|&t| self.triangles[t].map(|v| self.vertices[v])));
+            if skin.triangles.iter().any(|&t| fates[t] != Fate::Kept) {
+                reaching.push(counts(skin));
             }
         }
-        if found.crossing > 0
-            && let Some(united) = union::united(&self, &shells, &closed)
-        {
+        if let Some(largest) = reaching.first() {
             found.united = true;
+            found.crossing = reaching[1..].iter().sum::<usize>();
+            if found.crossing == 0 {
+                found.crossing = *largest;
+            }
+            let pieces = self.corners().zip(&fates).flat_map(|(corners, fate)| match fate {
+                Fate::Kept => vec![corners],
+                Fate::Within => Vec::new(),
+                Fate::Cut(pieces) => pieces.iter().flat_map(|p| (2..p.len()).map(|k| [p[0], p[k - 1], p[k]])).collect(),
+            });
+            let united = Self::from_corners(pieces);
+            let after = enclosed(united.corners());
+            found.touching = (before - after).abs() <= TOUCHING * after.abs();
             return (united, found);
         }
-        let mut kept = inside.iter().map(|inside| !inside);
-        self.triangles.retain(|_| kept.next().unwrap_or(true));
+        if found.inside > 0 {
+            let mut kept = fates.iter().map(|fate| *fate == Fate::Kept);
+            self.triangles.retain(|_| kept.next().unwrap_or(true));
+        }
         (self, found)
     }
 
-    /// The mesh with one of the triangles that have the same three vertices, and how many are left out.
-    #[must_use]
-    pub fn without_doubles(mut self) -> (Self, usize) {
-        let before = self.triangles.len();
-        let mut known = HashSet::with_capacity(before);
-        self.triangles.retain(|triangle| {
-            let mut sorted = *triangle;
-            sorted.sort_unstable();
-            known.insert(sorted)
-        });
-        let left_out = before - self.triangles.len();
-        (self, left_out)
+    /// The skins that shells make together, with their openings covered, the largest first.
+    fn closed_skins(&self, shells: &[Vec<usize>]) -> Vec<Skin> {
+        let rims = Rims::of(self, shells, ONE);
+        let joints = rims.joints(self).into_iter().map(|(pair, _)| pair);
+        let skins = connected(shells.len(), joints);
+        let skin = |parts: &Vec<usize>| {
+            let triangles: Vec<usize> = parts.iter().flat_map(|&k| shells[k].iter().copied()).collect();
+            let closed: Vec<[[f64; 3]; 3]> = parts.iter().flat_map(|&k| self.covered(&shells[k])).collect();
+            let bounds = around(closed.iter().flatten().copied());
+            Skin { triangles, closed, bounds }
+        };
+        let mut skins: Vec<Skin> = skins.iter().map(skin).collect();
+        let size = |skin: &Skin| (0..3).map(|k| skin.bounds[1][k] - skin.bounds[0][k]).product::<f64>();
+        skins.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        skins
     }
 
-    /// The mesh without open sheets beside its body, such as bilge keels: flat shells whose edges do not lie in the openings of
-    /// the others; and how many triangles they have.
+    /// The mesh with one of the triangles that have the same three vertices, and how many are left out. What closed shells have
+    /// in common is of each of them.
+    #[must_use]
+    pub fn without_doubles(mut self) -> (Self, usize) {
+        let sorted = |&t: &usize| {
+            let mut triangle = self.triangles[t];
+            triangle.sort_unstable();
+            triangle
+        };
+        let neighbours = self.neighbours();
+        let mut known = HashSet::with_capacity(self.triangles.len());
+        let mut left_out = vec![false; self.triangles.len()];
+        for shell in self.shells() {
+            let is_known = shell.iter().all(|t| known.contains(&sorted(t)));
+            let is_closed = shell.iter().all(|&t| neighbours[t].iter().all(Option::is_some));
+            for t in shell {
+                left_out[t] = !known.insert(sorted(&t)) && (is_known || !is_closed);
+            }
+        }
+        let count = left_out.iter().filter(|out| **out).count();
+        let mut out = left_out.into_iter();
+        self.triangles.retain(|_| !out.next().unwrap_or(false));
+        (self, count)
+    }
+
+    /// The mesh without open sheets beside its body, such as bilge keels and bulkheads: flat shells most of whose rims close
+    /// nothing; and how many triangles they have. The sheet that closes least is left out first, of several the innermost.
     #[must_use]
     pub fn without_sheets(mut self) -> (Self, usize) {
         let shells = self.shells();
-        let Some(size) = self.bounds().map(|[least, greatest]| length(minus(greatest, least))) else {
-            return (self, 0);
-        };
-        let open: Vec<Vec<[usize; 2]>> =
-            shells.iter().map(|shell| open_edges(shell.iter().map(|&t| self.triangles[t]))).collect();
+        let Some(bounds) = self.bounds().filter(|_| shells.len() > 1) else { return (self, 0) };
+        let rims = Rims::of(&self, &shells, ONE);
         let is_flat = |k: usize| {
             let corners = self.covered(&shells[k]);
             let enclosed: f64 = corners.iter().map(|[a, b, c]| dot(*a, cross(*b, *c)) / 6.0).sum();
             let area: f64 = shells[k].iter().map(|&t| triangle_area(self.triangles[t].map(|v| self.vertices[v]))).sum();
             enclosed.abs() < FLAT * area.powf(1.5)
         };
-        let sheets: Vec<usize> = (0..shells.len()).filter(|&k| !open[k].is_empty() && is_flat(k)).collect();
-        if sheets.is_empty() || sheets.len() == shells.len() {
-            return (self, 0);
-        }
-        // Places of the vertices of openings of the other shells, which close each other where a sheet is between them.
-        let key = |vertex: usize| self.vertices[vertex].map(|c| (c / (ONE * size)).round() as i64);
-        let is_sheet = |k: &usize| sheets.contains(k);
-        let others = (0..shells.len()).filter(|k| !is_sheet(k)).flat_map(|k| &shells[k]);
-        let openings = open_edges(others.map(|&t| self.triangles[t]));
-        let openings: HashSet<[i64; 3]> = openings.into_iter().flatten().map(key).collect();
-        let mut left_out = vec![false; self.triangles.len()];
-        for &k in &sheets {
-            let closing =
-                open[k].iter().filter(|edge| edge.iter().all(|&vertex| openings.contains(&key(vertex)))).count();
-            if (closing as f64) < CLOSING * open[k].len() as f64 {
-                shells[k].iter().for_each(|&t| left_out[t] = true);
+        let innermost = |k: usize| {
+            let points = shells[k].iter().flat_map(|&t| self.triangles[t]).map(|v| self.vertices[v]);
+            let middle = mean(points, 3 * shells[k].len());
+            (0..3)
+                .map(|axis| (middle[axis] - bounds[0][axis]).min(bounds[1][axis] - middle[axis]))
+                .fold(f64::MAX, f64::min)
+        };
+        let mut counts = vec![true; shells.len()];
+        let mut sheets: HashMap<usize, (f64, f64)> = (0..shells.len())
+            .filter(|&k| rims.is_open(k) && is_flat(k))
+            .map(|k| (k, (rims.closing(k, &counts), -innermost(k))))
+            .collect();
+        let order = |a: &(&usize, &(f64, f64)), b: &(&usize, &(f64, f64))| {
+            a.1.0.total_cmp(&b.1.0).then(a.1.1.total_cmp(&b.1.1)).then(a.0.cmp(b.0))
+        };
+        while let Some(least) = sheets.iter().min_by(order).filter(|(_, (part, _))| *part < CLOSING).map(|(k, _)| *k) {
+            sheets.remove(&least);
+            counts[least] = false;
+            for other in rims.beside(least) {
+                if let Some((part, _)) = sheets.get_mut(&other) {
+                    *part = rims.closing(other, &counts);
+                }
             }
         }
-        let count = left_out.iter().filter(|out| **out).count();
-        let mut out = left_out.into_iter();
-        self.triangles.retain(|_| !out.next().unwrap_or(false));
-        let kept: Vec<[[f64; 3]; 3]> = self.corners().collect();
-        (if count > 0 { Self::from_corners(kept.into_iter()) } else { self }, count)
+        let sheets: Vec<&usize> = shells.iter().zip(&counts).filter(|(_, kept)| !**kept).flat_map(|(s, _)| s).collect();
+        if sheets.is_empty() || sheets.len() == self.triangles.len() {
+            return (self, 0);
+        }
+        let count = sheets.len();
+        let mut out = vec![false; self.triangles.len()];
+        sheets.into_iter().for_each(|&t| out[t] = true);
+        let kept: Vec<[[f64; 3]; 3]> = self.corners().zip(out).filter(|(_, out)| !out).map(|(t, _)| t).collect();
+        self = Self::from_corners(kept.into_iter());
+        (self, count)
     }
 
     /// The greatest opening of the skin along the ship and below the deck: its area over that of the skin, and its least and
@@ -165,7 +196,7 @@ impl TriangleMesh {
     pub fn hole(&self) -> Option<(f64, [[f64; 3]; 2])> {
         let [least, greatest] = self.bounds()?;
         let extent = minus(greatest, least);
-        let open = self.open_edges();
+        let open = self.openings(ONE);
         let mut at = HashMap::new();
         let ends = open.iter().enumerate().flat_map(|(k, edge)| edge.map(|vertex| (k, vertex)));
         let pairs: Vec<[usize; 2]> = ends.map(|(k, vertex)| [k, *at.entry(vertex).or_insert(k)]).collect();
@@ -226,6 +257,11 @@ impl TriangleMesh {
     }
 }
 
+/// The integral of y over the y of the area vectors, which a deck adds nothing to \[m^3\].
+fn enclosed(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> f64 {
+    triangles.map(|[a, b, c]| cross(minus(b, a), minus(c, a))[1] * (a[1] + b[1] + c[1]) / 6.0).sum()
+}
+
 /// The mean of `count` points.
 fn mean(points: impl Iterator<Item = [f64; 3]>, count: usize) -> [f64; 3] {
     let sum = points.fold([0.0; 3], |sum, point| std::array::from_fn(|axis| sum[axis] + point[axis]));
@@ -242,7 +278,7 @@ fn root(parents: &mut [usize], mut k: usize) -> usize {
 }
 
 /// Parts of `count` things that pairs of them connect, each rising, in the order of their first.
-fn connected(count: usize, pairs: impl Iterator<Item = [usize; 2]>) -> Vec<Vec<usize>> {
+pub(super) fn connected(count: usize, pairs: impl Iterator<Item = [usize; 2]>) -> Vec<Vec<usize>> {
     let mut parents: Vec<usize> = (0..count).collect();
     for [a, b] in pairs {
         let [a, b] = [root(&mut parents, a), root(&mut parents, b)];
@@ -270,6 +306,7 @@ pub(super) fn solid_angle([a, b, c]: [[f64; 3]; 3]) -> f64 {
 mod tests {
     use super::super::tests::brick;
     use super::*;
+    use std::f64::consts::PI;
 
     /// A brick with others, each moved and scaled about the origin.
     fn with(others: &[([f64; 3], f64)]) -> TriangleMesh {
@@ -331,26 +368,29 @@ mod tests {
 
     #[test]
     fn shells_beside_each_other_stay() {
-        for by in [[5.0, 0.0, 0.0], [4.0, 2.0, 0.0], [4.0, 0.5, 0.1], [0.0; 3]] {
+        for by in [[5.0, 0.0, 0.0], [4.0, 2.0, 0.0]] {
             let both = with(&[(by, 1.0)]);
             assert_eq!(both.clone().without_inner_shells(), (both, InnerShells::default()), "{by:?}");
         }
-        // The two walls that they have in common are inside.
+        let (mesh, found) = with(&[([0.0; 3], 1.0)]).without_inner_shells();
+        assert_eq!((mesh, found), (brick(), InnerShells { inside: 12, ..InnerShells::default() }));
+        // The two walls that they have in common are inside, and what others share of theirs.
+        let touching = InnerShells { crossing: 12, touching: true, united: true, ..InnerShells::default() };
         for by in [[4.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]] {
             let (mesh, found) = with(&[(by, 1.0)]).without_inner_shells();
-            assert_eq!(
-                (mesh.triangles.len(), found),
-                (20, InnerShells { inside: 4, ..InnerShells::default() }),
-                "{by:?}"
-            );
+            assert_eq!((mesh.triangles.len(), found), (20, touching), "{by:?}");
         }
+        let (mesh, found) = with(&[([4.0, 0.5, 0.1], 1.0)]).without_inner_shells();
+        let area = |mesh: &TriangleMesh| mesh.corners().map(triangle_area).sum::<f64>();
+        let shared = 2.0 * 1.5 * 1.9;
+        assert!((area(&mesh) - 2.0 * area(&brick()) + shared).abs() < 1e-9 && found == touching, "{found:?}");
     }
 
     #[test]
     fn shells_that_reach_into_another_are_named() {
         // A skeg whose top is inside, and which has the middles of triangles of the bottom inside.
         let (mesh, found) = with(&[([1.0, 0.0, -0.8], 0.5)]).without_inner_shells();
-        assert_eq!((found.inside, found.crossing, found.united), (0, 24, true));
+        assert_eq!((found.inside, found.crossing, found.united, found.touching), (0, 12, true, false));
         assert!(mesh.triangles.len() > 24);
     }
 

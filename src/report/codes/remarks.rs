@@ -189,7 +189,7 @@ pub(super) const REMARKS: [Explanation; 42] = [
     Explanation {
         code: "W351",
         title: "Body that is not closed",
-        cause: "A mesh has open edges, or shells that reach into others, or surfaces share no side. What they share counts twice.",
+        cause: "A mesh has open edges, or shells that reach into others, or surfaces share no side.",
         example: "A mesh without deck: `4 edges open`.",
         remedy: "Only deck, transom and flat bow may be missing. Unite shells to one skin.",
     },

@@ -102,6 +102,7 @@ pub(in super::super) fn framed(
         let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
         *mesh = TriangleMesh::from_corners(corners.into_iter());
         if !surfaces {
+            *mesh = std::mem::take(mesh).welded();
             let (single, doubles) = std::mem::take(mesh).without_doubles();
             *mesh = single;
             if doubles > 0 && k == 0 {
@@ -160,7 +161,7 @@ pub(in super::super) fn framed(
         off_base([least[2], greatest[2]], settings, problems);
     }
     // The pieces of a union are no conforming mesh.
-    let open = if surfaces || united { Vec::new() } else { meshes[0].open_edges() };
+    let open = if surfaces || united { Vec::new() } else { meshes[0].gaps() };
     if !surfaces
         && !united
         && !at_surface
@@ -251,6 +252,7 @@ fn without_dry_skin(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) ->
 /// A mesh without open sheets beside its body; of several meshes the first alone has problems to say.
 fn without_sheets(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> TriangleMesh {
     let (mesh, sheets) = std::mem::take(mesh).without_sheets();
+    let mesh = if sheets > 0 { mesh.oriented().0 } else { mesh };
     if let Some(problems) = problems.filter(|_| sheets > 0) {
         let message = format!(
             "{} of open sheets left out: bulkheads, keels and rudders as sheets have no volume",
@@ -264,7 +266,8 @@ fn without_sheets(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> T
 /// A mesh without the shells inside others, and whether it is cut to the skin of a union; of nested meshes the first alone has
 /// problems to say.
 fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> (TriangleMesh, bool) {
-    let (mesh, InnerShells { inside, crossing, united, unseen }) = std::mem::take(mesh).without_inner_shells();
+    let (mesh, InnerShells { inside, crossing, touching, united, unseen }) =
+        std::mem::take(mesh).without_inner_shells();
     let Some(problems) = problems else { return (mesh, united) };
     if inside > 0 {
         let message = format!(
@@ -280,7 +283,11 @@ fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> (T
         );
         problems.warning("W351", FilePosition::FILE, message, "Unite the parts to one skin");
     }
-    if crossing > 0 && united {
+    if touching {
+        let message =
+            format!("shells of {} touch others: what they touch with is no skin", counted(crossing, "triangle"));
+        problems.warning("W320", FilePosition::FILE, message, "");
+    } else if crossing > 0 && united {
         let message =
             format!("shells of {} reach into others: what they share counts once", counted(crossing, "triangle"));
         problems.warning("W351", FilePosition::FILE, message, "Unite the shells to one skin");
@@ -309,7 +316,10 @@ fn one_side(mesh: &TriangleMesh, stated: Option<bool>, format: Option<bool>, pro
     }
     let slack = match part {
         BodyPart::Half { inner } => MOVED * inner.abs(),
-        BodyPart::Whole if known.is_none() => return None,
+        BodyPart::Whole if known.is_none() => {
+            beside(mesh, problems);
+            return None;
+        }
         BodyPart::BesideWall if known.is_none() => {
             let message = "the body lies on one side of y = 0 and has a wall there: one half of a hull, or a whole body beside it";
             problems.error(
@@ -322,6 +332,14 @@ fn one_side(mesh: &TriangleMesh, stated: Option<bool>, format: Option<bool>, pro
         }
         _ => 0.0,
     };
+    let [both, _] = mesh.astride();
+    if !both.triangles.is_empty() {
+        let message = format!(
+            "{} of parts on both sides of y = 0 are not mirrored, as one side of the others is",
+            counted(both.triangles.len(), "triangle")
+        );
+        problems.warning("W320", FilePosition::FILE, message, "");
+    }
     let [least, greatest] = mesh.bounds()?;
     if slack > ON_CENTREPLANE * (greatest[1] - least[1]) {
         let message = format!(
@@ -334,6 +352,21 @@ fn one_side(mesh: &TriangleMesh, stated: Option<bool>, format: Option<bool>, pro
         problems.note("one side of the body is given; it is mirrored".to_owned());
     }
     Some(slack)
+}
+
+/// Says of bodies that begin near the centreplane that they are taken as whole; others that are not symmetric are named with the
+/// axes.
+fn beside(mesh: &TriangleMesh, problems: &mut Problems) {
+    let Some([least, greatest]) = mesh.bounds() else { return };
+    let (size, middle) = (greatest[1] - least[1], 0.5 * (least[1] + greatest[1]).abs());
+    let inner = middle - 0.5 * size;
+    if middle > SYMMETRIC * size && inner.abs() <= NEARLY * size {
+        let message = format!(
+            "the body begins {inner:.3} m from y = 0, nearly as one side of a hull does: it is taken as whole. \
+             --body half (body in the TOML beside it) says otherwise"
+        );
+        problems.warning("W320", FilePosition::FILE, message, "");
+    }
 }
 
 /// A body without what is level at its top: an untrimmed deck is wider than the hull, and closes nothing that counts.
