@@ -218,10 +218,49 @@ fn what_is_infeasible_is_refused_with_numbers() {
 #[test]
 fn the_nearest_value_of_a_refusal_is_feasible() {
     let refused = derive_outputs(&job("tug", &[("--cb", "Cb", "0.9".into())]), &[]).err().unwrap().to_string();
-    let (_, nearest) = refused.split_once("The nearest is C_B ").unwrap();
-    let nearest: f64 = nearest[..6].parse().unwrap();
-    let outputs = derived("tug", &[("--cb", "Cb", format!("{}", nearest - 1e-3))]);
+    let (_, nearest) = refused.split_once("Give C_B ").unwrap();
+    let outputs = derived("tug", &[("--cb", "Cb", nearest[..6].to_owned())]);
     assert!(error(outputs.targets[0].achieved, outputs.targets[0].requested) <= 1e-10);
+}
+
+/// Sections that are alike amidships stay alike. Where targets leave them no room, and where a stated body is narrower, a warning
+/// says so.
+#[test]
+fn the_parallel_body_of_the_parent_is_kept_or_its_loss_is_told() {
+    let outputs = derived("bulk-carrier", &[("--cb", "Cb", "0.79".into())]);
+    let [Some(scaled), Some(own)] = outputs.middle_bodies else { panic!("{:?}", outputs.middle_bodies) };
+    assert!(own[1] - own[0] > 0.9 * (scaled[1] - scaled[0]), "{scaled:?} {own:?}");
+    assert!(!outputs.warnings.iter().any(|warning| warning.starts_with("W423")), "{:?}", outputs.warnings);
+    // Below T the half-breadths are one along the body.
+    let hull = &outputs.derived.hull;
+    let (aft, fore) = (own[0] + 0.2 * (own[1] - own[0]), own[1] - 0.2 * (own[1] - own[0]));
+    for z in [0.5, 2.0, 6.0] {
+        let [a, b] = [aft, fore].map(|x| hull.half_breadth(x, z).unwrap());
+        assert!((a - b).abs() < 1e-9, "{z}: {a} {b}");
+    }
+    let lost = derived("bulk-carrier", &[("--entrance", "entrance", "20".into())]);
+    assert!(lost.warnings.iter().any(|warning| warning.starts_with("W423")), "{:?}", lost.warnings);
+    let narrow = derived("tug", &[("--parallel-body", "parallel_body", "12,16".into())]);
+    assert!(narrow.warnings.iter().any(|warning| warning.starts_with("W422")), "{:?}", narrow.warnings);
+}
+
+/// What the interval of the wetted surface excludes was no limit: the parent has it.
+#[test]
+fn limits_of_the_wetted_surface_hold_the_parent() {
+    let refused =
+        derive_outputs(&job("wigley", &[("--wetted-surface", "wetted_surface", "1400".into())]), &[]).err().unwrap();
+    let refused = refused.to_string();
+    let low = refused.split("out of reach: ").nth(1).unwrap().split(' ').next().unwrap();
+    let low: f64 = low.parse().unwrap();
+    // Wigley's hull of 100 x 10 x 6.25 m has 1487.9 m2.
+    assert!((1400.0..1488.0).contains(&low), "{refused}");
+}
+
+/// Another depth leaves displacement and LCB as they are, to rounding.
+#[test]
+fn what_is_kept_is_that_of_the_parent() {
+    let outputs = derived("box", &[("--depth", "D", "7".into())]);
+    assert!(outputs.targets.iter().all(|target| error(target.achieved, target.requested) < 1e-10));
 }
 
 /// Far from the parent the targets are met, and that lines are no longer fair is a warning and the exit code.

@@ -50,7 +50,7 @@ fn the_wave_resistance_falls_within_the_tolerances() {
     }
     let result = outcome.faired.waves.as_ref().unwrap();
     let mean = result.after.iter().zip(&result.before).map(|(a, b)| a / b).sum::<f64>() / 3.0;
-    assert!((mean - trades[result.taken].ratio).abs() < 1e-4 && mean < 0.97, "{mean}");
+    assert!((mean - trades[result.taken].ratio).abs() < 1e-4 && mean < 0.98, "{mean}");
     let moved = outcome.changes.iter().map(|change| (change.after - change.before).abs()).fold(0.0, f64::max);
     assert!(moved > 0.02 && moved < 0.04 * (1.0 + 1e-6), "{moved}");
     assert!(outcome.held.iter().all(|held| held.is_had()), "{:?}", outcome.held);

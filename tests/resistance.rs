@@ -206,6 +206,19 @@ fn bad_input_is_refused_with_its_remedy() {
         code == 3 && err.contains("E510 ") && err.contains("C_P is 1.0000; the formulas need 0.26 to 0.99"),
         "{err}"
     );
+    // What no ship has, and speeds at which a method says more than the ship weighs.
+    for (arguments, words) in [
+        (vec!["--transom-area", "60"], "A_T is 60.0000"),
+        (vec!["--bulb-area", "60", "--bulb-height", "3"], "A_BT is 60.0000"),
+        (vec!["--wetted-surface", "100"], "S is 100.0000"),
+        (vec!["--method", "michell", "--volume", "9000", "--draught", "6"], "C_B is 1.5"),
+        (vec!["--draught", "0.05"], "R_T over the weight is"),
+    ] {
+        let wigley = config("wigley.toml");
+        let list = [&[wigley.as_str(), "--speeds", "16"], arguments.as_slice()].concat();
+        let (code, out, err) = run(&list);
+        assert!(code == 3 && out.is_empty() && err.contains("E510 ") && err.contains(words), "{arguments:?}: {err}");
+    }
     // A table that states no draught.
     let table = carried("tests/data/series60_cb060/offsets.csv").display().to_string();
     let (code, _, err) = run(&[&table, "--speeds", "16"]);

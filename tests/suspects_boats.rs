@@ -212,7 +212,7 @@ fn a_table_of_lines_is_written_as_lines() {
         assert!(written.rounding.largest < 1e-12);
         let again = read(&written.text);
         for (one, other) in table.stations.iter().zip(&again.stations) {
-            assert_eq!(one.station, other.station);
+            assert!((one.station.x - other.station.x).abs() < 1e-9 && one.station.name == other.station.name);
             let points = |station: &loftsman::internals::hull::StationOffsets| -> Vec<[f64; 2]> {
                 station.outlines.iter().flatten().map(|point| [point.y, point.z]).collect()
             };

@@ -393,19 +393,19 @@ impl CurvesOfForm {
     }
 }
 
-/// Draughts, which rise, above the vertices that are as good as at them, where these differ: parts that are joined there end and
-/// begin within errors of rounding, and count once.
+/// Draughts, which rise, above the vertices that are as good as at them, where these vertices differ from each other: parts that
+/// are joined there end and begin within errors of rounding, and count once. Beside a row of equal heights a draught stays.
 fn over_seams(draughts: &[f64], heights: impl Iterator<Item = f64>, depth: f64) -> Vec<f64> {
     let near = SEAM * depth;
-    let mut ends: Vec<[f64; 2]> = draughts.iter().map(|&t| [t, t]).collect();
+    let mut ends = vec![[f64::INFINITY, f64::NEG_INFINITY]; draughts.len()];
     for z in heights {
         let from = draughts.partition_point(|&t| t < z - near);
         for (end, _) in ends[from..].iter_mut().zip(&draughts[from..]).take_while(|(_, t)| **t <= z + near) {
             *end = [end[0].min(z), end[1].max(z)];
         }
     }
-    let over = |[low, high]: [f64; 2]| if low < high { high + TOP[1] * depth } else { high };
-    ends.into_iter().map(over).collect()
+    let over = |([low, high], &t): ([f64; 2], &f64)| if low < high { high + TOP[1] * depth } else { t };
+    ends.into_iter().zip(draughts).map(over).collect()
 }
 
 /// Centre of buoyancy \[m\] and heel \[rad\] of a body that is not symmetrical.

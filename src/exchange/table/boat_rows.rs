@@ -3,6 +3,7 @@
 
 use super::write::Writer;
 use crate::hull::{Cell, Entry, Marks, OffsetTable, OutlinePoint, StationDatum, WrittenLine, WrittenPoint};
+use crate::units::Notation;
 
 /// Points of a section nearer than this are one \[m\].
 const SAME_POINT: f64 = 1e-6;
@@ -53,6 +54,10 @@ pub(super) fn records(table: &OffsetTable, writer: &mut Writer) -> Option<Vec<Ve
         return None;
     }
     let places = Places::new(table)?;
+    if writer.form.notation == Notation::FeetInchesEighths {
+        // Such a table says so by its cells, and all of them are.
+        (writer.form.x_notation, writer.form.z_notation) = (writer.form.notation, writer.form.notation);
+    }
     writer.form.origin = StationDatum::Lengths;
     writer.form.station_heads.clear();
     let names = table.stations.iter().map(|station| station.station.name.clone());

@@ -251,7 +251,7 @@ pub(super) const REMARKS: [Explanation; 42] = [
         title: "Daughter of another breadth",
         cause: "The waterline of the hull that `derive` made is more than a thousandth of B broader or narrower than that of its \
          scaled parent. Coefficients refer to the B that is printed.",
-        example: "`loftsman derive configs/tug.toml --parallel-body 12,16` has 8.58 m for 9.00 m.",
+        example: "`loftsman derive configs/tug.toml --parallel-body 12,16`.",
         remedy: "Give a shorter parallel body, more displacement or a larger midship coefficient, or state the B that is wanted.",
     },
     Explanation {
@@ -259,7 +259,7 @@ pub(super) const REMARKS: [Explanation; 42] = [
         title: "Parallel middle body that is lost",
         cause: "The scaled parent of `derive` has sections that are alike amidships. With the targets no such body of half its length \
          is left.",
-        example: "`loftsman derive tanker/hull.json --cb 0.70` of a tanker with a C_B of 0.80.",
+        example: "`loftsman derive configs/bulk-carrier.toml --entrance 20`.",
         remedy: "Give targets nearer to the parent, or state the body that is wanted with `--parallel-body`.",
     },
     Explanation {

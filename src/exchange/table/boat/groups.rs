@@ -40,7 +40,7 @@ pub(super) struct Lines<'g> {
     pub(super) rows: Vec<Row<'g>>,
     /// All labels, those of groups among them.
     pub(super) labels: Vec<&'g Field>,
-    /// Titles, and what stands over the labels.
+    /// Titles, and what stands above the labels.
     pub(super) titles: Vec<&'g Field>,
     /// What comments and rows of words say, of where diagonals lie among others.
     pub(super) definitions: Vec<String>,
