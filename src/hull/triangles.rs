@@ -31,6 +31,8 @@ const ONE: f64 = 1e-4;
 /// The inner edge of one side of a body is this near to the centreplane, over the half-breadth.
 const NEAR: f64 = 0.02;
 
+/// Part by which extents that are one differ.
+const ALIKE: f64 = 1e-6;
 /// Parts whose least and greatest y add to less than this part of the size of the body are symmetric about the centreplane.
 const ASTRIDE: f64 = 1e-4;
 
@@ -263,7 +265,10 @@ impl TriangleMesh {
         let [both, rest] = self.astride();
         let extent = |mesh: &Self| mesh.bounds().map(|[low, high]| [high[0] - low[0], high[1].max(-low[1])]);
         let Some(main) = extent(&rest) else { return BodyPart::Whole };
-        let is_lesser = extent(&both).is_some_and(|other| main.iter().zip(other).any(|(own, other)| *own < other));
+        let is_lesser = extent(&both).is_some_and(|other| {
+            let mut pairs = main.iter().zip(other);
+            pairs.clone().any(|(own, other)| *own < other) || pairs.all(|(own, other)| *own <= (1.0 + ALIKE) * other)
+        });
         if is_lesser { BodyPart::Whole } else { rest.side() }
     }
 

@@ -119,6 +119,9 @@ const USUAL_ENTRANCE: std::ops::RangeInclusive<f64> = 3.0..=70.0;
 /// Least initial metacentric height of the IS Code 2008 \[m\].
 pub const LEAST_GM: f64 = 0.15;
 
+/// Part of the height of a body above which what is immersed has a volume.
+const IMMERSED: f64 = 1e-3;
+
 /// Relative error of a quantity beyond which it is none of rounding, nor of the skin of a union of shells.
 const ROUNDING: f64 = 1e-4;
 
@@ -150,6 +153,12 @@ impl Hydrostatics {
                 )
             })
             .collect();
+        if self.displacement_volume <= 0.0 && depth > IMMERSED * (greatest[2] - least[2]) {
+            found.push(format!(
+                "at {:.3} m {depth:.3} m of the body is immersed, and its skin encloses nothing",
+                self.draught
+            ));
+        }
         if let Some(kb) = self.kb.filter(|kb| !(-ROUNDING..=1.0 + ROUNDING).contains(&((kb - least[2]) / depth))) {
             let [low, high] = [least[2], least[2] + depth];
             found.push(format!(

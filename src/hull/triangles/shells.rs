@@ -49,6 +49,20 @@ const LONG: f64 = 0.2;
 const LOW: f64 = 0.25;
 const WIDE: f64 = 0.02;
 
+/// Edges of an odd number of triangles, of which a closed body has none.
+fn odd_edges(triangles: impl Iterator<Item = [usize; 3]>) -> usize {
+    let mut odd = HashSet::new();
+    for [a, b, c] in triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let edge = (from.min(to), from.max(to));
+            if !odd.remove(&edge) {
+                odd.insert(edge);
+            }
+        }
+    }
+    odd.len()
+}
+
 impl TriangleMesh {
     /// The mesh without the shells inside others, and what was found. The triangles face outward.
     #[must_use]
@@ -117,7 +131,7 @@ impl TriangleMesh {
     }
 
     /// The mesh with one of the triangles that have the same three vertices, and how many are left out. What closed shells have
-    /// in common is of each of them.
+    /// in common is of each of them, and nothing is left out where more edges would be open for it.
     #[must_use]
     pub fn without_doubles(mut self) -> (Self, usize) {
         let sorted = |&t: &usize| {
@@ -136,6 +150,10 @@ impl TriangleMesh {
             }
         }
         let count = left_out.iter().filter(|out| **out).count();
+        let single = self.triangles.iter().zip(&left_out).filter(|(_, out)| !**out).map(|(triangle, _)| *triangle);
+        if count > 0 && odd_edges(single) > odd_edges(self.triangles.iter().copied()) {
+            return (self, 0);
+        }
         let mut out = left_out.into_iter();
         self.triangles.retain(|_| !out.next().unwrap_or(false));
         (self, count)

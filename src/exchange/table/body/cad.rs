@@ -116,8 +116,21 @@ fn of_surfaces(
         problems.error("E311", FilePosition::FILE, message, remedy);
         return (Vec::new(), 0.0);
     }
-    let (surfaces, doubles) = without_doubles(surfaces);
-    if doubles > 0 {
+    let [single, twins] = without_doubles(surfaces);
+    let doubles = twins.len();
+    let walls = || [single.as_slice(), &twins].concat();
+    let closes = |surfaces: &[BsplineSurface<4>]| {
+        let Ok((nested, deviation)) = TriangleMesh::nested(surfaces, DEVIATION * extent(surfaces), ENOUGH) else {
+            return false;
+        };
+        let given = Given { surfaces: true, ..Given::plain(unit) };
+        let (meshes, _) = in_frame(nested, deviation, &given, settings, &mut Problems::new(""));
+        meshes.first().is_some_and(|mesh| mesh.report().closed)
+    };
+    // A wall that two bodies have in common belongs to each of them.
+    let is_shared = doubles > 0 && !closes(&single) && closes(&walls());
+    let surfaces = if is_shared { walls() } else { single };
+    if doubles > 0 && !is_shared {
         let message = format!("{} given twice: counted once", counted(doubles, "surface"));
         problems.warning("W320", FilePosition::FILE, message, "");
     }
@@ -168,29 +181,30 @@ fn place([x, y, z, w]: [f64; 4]) -> [f64; 3] {
     [x / w, y / w, z / w]
 }
 
-/// The surfaces without those that are given twice, in whatever direction their parameters run, and how many are left out.
-fn without_doubles(surfaces: Vec<BsplineSurface<4>>) -> (Vec<BsplineSurface<4>>, usize) {
+/// The surfaces without those that are given twice, in whatever direction their parameters run, and what was given again, with
+/// the parameters of the first.
+fn without_doubles(surfaces: Vec<BsplineSurface<4>>) -> [Vec<BsplineSurface<4>>; 2] {
     let slack = (ALIKE * extent(&surfaces)).max(f64::MIN_POSITIVE);
-    let before = surfaces.len();
-    let mut kept: Vec<BsplineSurface<4>> = Vec::with_capacity(before);
+    let (mut kept, mut twins): (Vec<BsplineSurface<4>>, Vec<BsplineSurface<4>>) = (Vec::new(), Vec::new());
     // Means of points that are alike are in the same cell or in neighbours.
     let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
     for surface in surfaces {
         let count = surface.points().len() as f64;
         let mean = |k: usize| surface.points().iter().map(|&point| place(point)[k]).sum::<f64>() / count;
         let cell = [0, 1, 2].map(|k| (mean(k) / (4.0 * slack)).floor() as i64);
-        let is_known = (0..27_i64).map(|n| [n % 3, n / 3 % 3, n / 9]).any(|step| {
+        let known = (0..27_i64).map(|n| [n % 3, n / 3 % 3, n / 9]).find_map(|step| {
             let near = [0, 1, 2].map(|k: usize| cell[k].saturating_add(step[k] - 1));
             let mut others = cells.get(&near).into_iter().flatten().take(MOST_AT_PLACE);
-            others.any(|&other| are_same(&surface, &kept[other], slack))
+            others.find(|&&other| are_same(&surface, &kept[other], slack)).copied()
         });
-        if !is_known {
+        if let Some(other) = known {
+            twins.push(kept[other].clone());
+        } else {
             cells.entry(cell).or_default().push(kept.len());
             kept.push(surface);
         }
     }
-    let doubles = before - kept.len();
-    (kept, doubles)
+    [kept, twins]
 }
 
 /// Whether two surfaces have the same net, in whatever direction their parameters run.
