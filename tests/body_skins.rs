@@ -245,3 +245,21 @@ fn a_moonpool_of_its_own_mesh_is_no_tank() {
     let pool = 0.5 * 64.0 * 4.0 * (std::f64::consts::TAU / 64.0).sin();
     displaces("moonpool", &triangles, 3.0, [1800.0 - 3.0 * pool, 600.0 - pool]);
 }
+
+/// Triangles of two bodies with a common wall, in turn: the wall belongs to each.
+#[test]
+fn a_wall_of_two_bodies_is_of_each() {
+    let (aft, fore) = (block([0.0, -5.0, 0.0], [30.0, 5.0, 6.0]), block([30.0, -5.0, 0.0], [60.0, 5.0, 6.0]));
+    let turns: Vec<Triangle> = aft.iter().zip(&fore).flat_map(|(a, b)| [*a, *b]).collect();
+    displaces("turns", &turns, 3.0, [1800.0, 600.0]);
+    // A whole body given twice is one.
+    let hull = block(HULL[0], HULL[1]);
+    displaces("twice", &[hull.clone(), hull].concat(), 3.0, [1800.0, 600.0]);
+}
+
+/// A block on one side of a whole hull, of her length and half breadth, leaves her whole.
+#[test]
+fn a_block_beside_the_centreplane_leaves_a_hull_whole() {
+    let house = block([0.0, 0.0, 6.0], [60.0, 5.0, 8.0]);
+    displaces("house", &[block(HULL[0], HULL[1]), house].concat(), 3.0, [1800.0, 600.0]);
+}

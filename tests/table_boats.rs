@@ -3,6 +3,8 @@
 
 use std::fmt::Write as _;
 
+use loftsman::internals::exchange::{TableWriting, write_table};
+use loftsman::internals::hull::OffsetTable;
 use loftsman::internals::hydrostatics::Conventions;
 use loftsman::internals::report::read_hydrostatic_body;
 
@@ -241,4 +243,25 @@ fn knuckles_of_a_skeg_under_a_level_bottom_enclose_what_is_drawn() {
     // Trapezoids above the bottom, and the keel below it, 0.08 m broad.
     let volume = 8.0 * 2.0 * 0.5 * (1.5 + 1.5 + 0.3 / 1.3 * 0.5) * 0.5 + 8.0 * 0.08 * (1.0 - 0.2 - 0.08);
     right("skeg.csv", &text, "units = \"m\"", [1.5, volume]);
+}
+
+/// Full breadths of points are written with the word that says so, and come back as they are.
+#[test]
+fn full_breadths_of_points_come_back() {
+    let mut text = "x,z,full breadth\n".to_owned();
+    for station in 0..=10 {
+        for level in 0..=6 {
+            let (s, t) = (f64::from(station) / 5.0 - 1.0, f64::from(level) / 6.0);
+            text += &format!("{},{},{:.4}\n", 10 * station, level, 10.0 * (1.0 - s * s) * t.sqrt());
+        }
+    }
+    let read = |text: &str| crate::support::read("points.csv", text).table;
+    let table = read(&text);
+    let again = read(&write_table(&table, TableWriting::default()).text);
+    let widest = |table: &OffsetTable| {
+        let cells = table.stations.iter().flat_map(|station| &station.half_breadths).filter_map(|cell| cell.value());
+        let points = table.stations.iter().flat_map(|station| station.outlines.iter().flatten()).map(|point| point.y);
+        cells.chain(points).fold(0.0, f64::max)
+    };
+    assert!((widest(&table) - 5.0).abs() < 1e-3 && (widest(&again) - 5.0).abs() < 1e-3, "{}", widest(&again));
 }

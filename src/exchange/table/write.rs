@@ -190,6 +190,11 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
             }
         }
     }
+    let says_full = |line: &String| line.trim_start_matches('#').trim_start().starts_with("breadths");
+    if layout == TableLayout::Tidy && form.full_breadths && !form.preamble.iter().any(says_full) {
+        // The column y has no other word for it.
+        form.preamble.push("# breadths = full".to_owned());
+    }
     let table = &with_holes(table);
     // The texts of the cells hold where unit, factor and sign are those of the file.
     let own = !renotated && (form.full_breadths, form.negative) == (table.form.full_breadths, table.form.negative);

@@ -130,6 +130,12 @@ impl TriangleMesh {
         skins
     }
 
+    /// Edges of an odd number of triangles, of which a closed body has none.
+    #[must_use]
+    pub fn odd_edges(&self) -> usize {
+        odd_edges(self.triangles.iter().copied())
+    }
+
     /// The mesh with one of the triangles that have the same three vertices, and how many are left out. What closed shells have
     /// in common is of each of them, and nothing is left out where more edges would be open for it.
     #[must_use]
@@ -151,7 +157,7 @@ impl TriangleMesh {
         }
         let count = left_out.iter().filter(|out| **out).count();
         let single = self.triangles.iter().zip(&left_out).filter(|(_, out)| !**out).map(|(triangle, _)| *triangle);
-        if count > 0 && odd_edges(single) > odd_edges(self.triangles.iter().copied()) {
+        if count > 0 && odd_edges(single) > self.odd_edges() {
             return (self, 0);
         }
         let mut out = left_out.into_iter();

@@ -119,16 +119,12 @@ fn of_surfaces(
     let [single, twins] = without_doubles(surfaces);
     let doubles = twins.len();
     let walls = || [single.as_slice(), &twins].concat();
-    let closes = |surfaces: &[BsplineSurface<4>]| {
-        let Ok((nested, deviation)) = TriangleMesh::nested(surfaces, DEVIATION * extent(surfaces), ENOUGH) else {
-            return false;
-        };
-        let given = Given { surfaces: true, ..Given::plain(unit) };
-        let (meshes, _) = in_frame(nested, deviation, &given, settings, &mut Problems::new(""));
-        meshes.first().is_some_and(|mesh| mesh.report().closed)
+    let open = |surfaces: &[BsplineSurface<4>]| {
+        let nested = TriangleMesh::nested(surfaces, DEVIATION * extent(surfaces), ENOUGH);
+        nested.map_or(usize::MAX, |([coarse, _], _)| coarse.odd_edges())
     };
-    // A wall that two bodies have in common belongs to each of them.
-    let is_shared = doubles > 0 && !closes(&single) && closes(&walls());
+    // A wall that two bodies have in common belongs to each of them: without one of it edges are open.
+    let is_shared = doubles > 0 && open(&walls()) < open(&single);
     let surfaces = if is_shared { walls() } else { single };
     if doubles > 0 && !is_shared {
         let message = format!("{} given twice: counted once", counted(doubles, "surface"));
