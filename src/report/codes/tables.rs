@@ -248,7 +248,7 @@ pub(super) const TABLES: [Explanation; 33] = [
         code: "E354",
         title: "Skin of a body that is none",
         cause: "The skin of a body has a long opening below its deck: a side or the bottom is missing. Or its shells cross, and are \
-         too many for their union.",
+         too many for their union. Or untrimmed surfaces stand twice where bodies have a wall in common.",
         example: "A box without its port side: 900 for 1800 m3.",
         remedy: "Close the body: deck, transom and flat bow alone may be missing. Unite its shells to one skin.",
     },

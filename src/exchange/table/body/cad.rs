@@ -125,8 +125,18 @@ fn of_surfaces(
     };
     // A wall that two bodies have in common belongs to each of them: without one of it edges are open.
     let is_shared = doubles > 0 && open(&walls()) < open(&single);
-    let surfaces = if is_shared { walls() } else { single };
-    if doubles > 0 && !is_shared {
+    if is_shared {
+        let message = format!(
+            "{} twice where bodies have a wall in common, and untrimmed surfaces do not tell whose it is",
+            if doubles == 1 { "1 surface stands".to_owned() } else { format!("{doubles} surfaces stand") }
+        );
+        let remedy =
+            "Choose the layers of one body with --parts, or give the bodies as solids (STEP, IGES) or as a mesh";
+        problems.error("E354", FilePosition::FILE, message, remedy);
+        return (Vec::new(), 0.0);
+    }
+    let surfaces = single;
+    if doubles > 0 {
         let message = format!("{} given twice: counted once", counted(doubles, "surface"));
         problems.warning("W320", FilePosition::FILE, message, "");
     }
