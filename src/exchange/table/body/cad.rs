@@ -124,7 +124,7 @@ fn of_surfaces(
         nested.map_or(usize::MAX, |([coarse, _], _)| coarse.odd_edges())
     };
     // A wall that two bodies have in common belongs to each of them: without one of it edges are open.
-    let is_shared = doubles > 0 && open(&walls()) == 0 && open(&single) > 0;
+    let is_shared = (1..single.len()).contains(&doubles) && open(&walls()) == 0 && open(&single) > 0;
     if is_shared {
         let message = format!(
             "{} twice where bodies have a wall in common, and untrimmed surfaces do not tell whose it is",
