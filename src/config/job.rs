@@ -25,7 +25,7 @@ pub use hold::{Quantity, Target};
 pub use keys::JOB_KEYS;
 pub(super) use keys::{REMOVED, RENAMED};
 pub use location::Location;
-use ranges::{density, dimension, fairness, positive, price, wave_weight, weight};
+use ranges::{density, dimension, fairness, positive, price, weight};
 pub use shape::RuleEntry;
 pub use table_ref::{TableItem, TableRef};
 
@@ -170,7 +170,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         exclude_suspects: document.switch("suspects.exclude"),
         price: price(document),
         froude_numbers: document.froude_numbers("waves.froude_numbers"),
-        wave_weight: wave_weight(document),
+        wave_weight: positive(document, "waves.weight", "number"),
         places: document.entries.iter().map(|e| Location::new(document, &e.key.path(), e.span.start)).collect(),
         ..JobFile::default()
     };

@@ -72,20 +72,18 @@ impl Job<'_> {
     pub(super) fn limits(&self, start: &Hull, quantity: Quantity, others: &[Target]) -> Option<Interval> {
         let of = |chart: &Hull| interval(self.scaled, chart, &self.reference, quantity, others, self.body);
         let most = OF_FOLD * LEVEL_FOLD;
-        let ways = match quantity {
-            _ if self.body.is_some() => [[0.0; 2]; 2],
-            Quantity::Volume | Quantity::PrismaticCoefficient => [[most, most], [-most, -most]],
-            Quantity::Lcb | Quantity::Lcf => [[most, -most], [-most, most]],
-            _ => [[0.0; 2]; 2],
+        let shifts: &[[f64; 2]] = match quantity {
+            _ if self.body.is_some() => &[],
+            Quantity::Volume | Quantity::PrismaticCoefficient => &[[most, most], [-most, -most]],
+            Quantity::Lcb | Quantity::Lcf => &[[most, -most], [-most, most]],
+            _ => &[],
         };
-        let moved = |amplitudes: [f64; 2]| {
-            let is_moved = amplitudes.iter().any(|amplitude| *amplitude != 0.0);
+        let moved = |amplitudes: &[f64; 2]| {
             let ends = Ends::inside(self.scaled, self.midship());
-            let chart = shifted(self.scaled, &ends, &|side, t| level(t, amplitudes[side])).ok().filter(|_| is_moved)?;
-            of(&chart)
+            of(&shifted(self.scaled, &ends, &|side, t| level(t, amplitudes[side])).ok()?)
         };
-        let (own, (one, other)) = join(|| of(start), || (moved(ways[0]), moved(ways[1])));
-        let found: Vec<Interval> = [own, one, other].into_iter().flatten().collect();
+        let (own, others) = join(|| of(start), || shifts.iter().filter_map(moved).collect::<Vec<_>>());
+        let found: Vec<Interval> = own.into_iter().chain(others).collect();
         // A chart on which signs go is left out where others keep them.
         let keeps = found.iter().any(|interval| interval.keeps_signs);
         found.into_iter().filter(|interval| interval.keeps_signs || !keeps).reduce(Interval::with)
@@ -103,29 +101,35 @@ fn interval(
     body: Option<[f64; 2]>,
 ) -> Option<Interval> {
     let of = |keeps_signs: bool| {
-        let search = |targets: &[Target]| {
-            let mut search = Search::new(parent, start, reference, targets, body);
-            if !keeps_signs {
-                search.without_signs();
-            }
-            search.run().ok().map(|nearest| value_of(quantity, &nearest.hull, reference))
+        let meets = |value: f64| {
+            let own = Target { quantity, value, origin: Origin::Given };
+            let targets = [others, &[own]].concat();
+            let mut search = prepared((parent, start), reference, (&targets, body), keeps_signs);
+            let found = search.run().ok().map(|nearest| value_of(quantity, &nearest.hull, reference));
+            found.is_some_and(|found| (found - value).abs() <= 1e-6 * value.abs())
         };
         let end = |way: f64| {
-            let mut linear = Search::new(parent, start, reference, others, body);
-            if !keeps_signs {
-                linear.without_signs();
-            }
-            let found = extreme(linear, quantity, way)?;
-            let meets = |value: f64| {
-                let own = Target { quantity, value, origin: Origin::Given };
-                search(&[others, &[own]].concat()).is_some_and(|found| (found - value).abs() <= 1e-6 * value.abs())
-            };
+            let found = extreme(prepared((parent, start), reference, (others, body), keeps_signs), quantity, way)?;
             Some(if is_linear(quantity) { found } else { beyond(found, way, meets) })
         };
         let (low, high) = (end(1.0)?, end(-1.0)?);
         Some(Interval { quantity, low: low.min(high), high: high.max(low), keeps_signs })
     };
     of(true).or_else(|| of(false))
+}
+
+/// A search for a hull with these targets, with the signs of curvature of the parent or without.
+fn prepared<'a>(
+    (parent, start): (&Hull, &'a Hull),
+    reference: &'a Reference,
+    (targets, body): (&'a [Target], Option<[f64; 2]>),
+    keeps_signs: bool,
+) -> Search<'a> {
+    let mut search = Search::new(parent, start, reference, targets, body);
+    if !keeps_signs {
+        search.without_signs();
+    }
+    search
 }
 
 /// The least value of `quantity`, or the greatest for a `way` of -1.
@@ -151,7 +155,7 @@ fn extreme(mut search: Search<'_>, quantity: Quantity, way: f64) -> Option<f64> 
     for _ in 0..STEPS {
         let Some(vertex) = towards(&mut search, &y) else { break };
         let along = |t: f64| -> Vec<f64> { y.iter().zip(&vertex).map(|(a, b)| a + t * (b - a)).collect() };
-        let (before, best) = (value(&y)?, longest(|t| value(&along(t)).map_or(f64::INFINITY, |value| way * value)));
+        let (before, best) = (value(&y)?, best_step(|t| value(&along(t)).map_or(f64::INFINITY, |value| way * value)));
         let next = along(best);
         let gain = way * (before - value(&next)?);
         y = next;
@@ -191,7 +195,7 @@ fn beyond(end: f64, way: f64, meets: impl Fn(f64) -> bool) -> f64 {
 }
 
 /// Where from 0 to 1 a function is least, to a thousandth: by thirds, or an end.
-fn longest(of: impl Fn(f64) -> f64) -> f64 {
+fn best_step(of: impl Fn(f64) -> f64) -> f64 {
     let [mut low, mut high] = [0.0, 1.0];
     for _ in 0..THIRDS {
         let third = (high - low) / 3.0;

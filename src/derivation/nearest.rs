@@ -256,14 +256,8 @@ impl<'a> Search<'a> {
     /// Hessian and slope of J + w R over the square of the unit.
     fn objective(&self, n: usize) -> (SparseRows, Vec<f64>) {
         let Some((term, weight)) = self.waves else { return (self.form.clone(), vec![0.0; n]) };
-        let mut hessian = SparseRows::new(n);
-        let mut row = vec![0.0; n];
-        for i in 0..n {
-            (0..n).for_each(|j| row[j] = 2.0 * weight * term.form[(i, j)]);
-            self.form.entries(i).for_each(|(j, value)| row[j] += value);
-            hessian.push(row.iter().copied().enumerate());
-        }
-        (hessian, term.gradient.iter().map(|g| weight * g / self.unit).collect())
+        let places: Vec<usize> = (0..n).collect();
+        (term.hessian_with(&self.form, &places, weight), term.gradient.iter().map(|g| weight * g / self.unit).collect())
     }
 
     /// J of half-breadths [m^2].

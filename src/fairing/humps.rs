@@ -229,9 +229,8 @@ impl Question<'_> {
 
     /// The signs of curvature that the lines of a net have, as limits.
     pub(super) fn signs_of(&self, net: &[f64]) -> Vec<Limit> {
-        let inverse = self.likely.factor.inverse_band();
         let of_line = |line: &TableLine| {
-            let asked = Asked { watched: true, around: 1, ..self.line(line, net, &inverse) };
+            let asked = Asked::as_it_is(&line.bends, net, self.seen);
             let limits = asked.signs(0.0).map(|signs| asked.limits(&signs, net));
             limits.into_iter().flatten().map(|(_, sign)| sign.limit).collect::<Vec<_>>()
         };

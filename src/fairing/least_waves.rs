@@ -9,12 +9,13 @@
 //! [`crate::resistance::WaveTerm`] has R_W and what is known of such programs. Tried: the misfit beside the energy. Tables without noise have
 //! little energy in their objective, and a Wigley hull got 250 monotone pieces for 90.
 
+use nalgebra::DVector;
+
 use super::fair::FairError;
 use super::humps::Question;
 use super::program::{Program, Solved, Wishes, symmetric};
 use super::surface::FairSurface;
 use crate::hull::Hull;
-use crate::qp::SparseRows;
 use crate::resistance::{NoWaveTerm, WaveRequest, WaveResult, WaveTerm, WaveTrade, knee};
 
 /// What is asked, and the draught at which it is \[m\].
@@ -52,23 +53,11 @@ impl Term<'_> {
     /// The program with w R beside its objective.
     fn added(&self, base: &Program, weight: f64) -> Program {
         let mut program = base.clone();
-        let n = program.problem.linear.len();
-        let mut quadratic = SparseRows::new(n);
-        let mut number = vec![None; n];
-        self.places.iter().enumerate().for_each(|(k, &place)| number[place] = Some(k));
-        for (i, number) in number.iter().enumerate() {
-            let Some(k) = *number else {
-                quadratic.push(base.problem.quadratic.entries(i));
-                continue;
-            };
-            let mut row = vec![0.0; n];
-            base.problem.quadratic.entries(i).for_each(|(j, value)| row[j] += value);
-            self.places.iter().enumerate().for_each(|(l, &j)| row[j] += 2.0 * weight * self.term.form[(k, l)]);
-            let pull: f64 = self.at.iter().enumerate().map(|(l, at)| self.term.form[(k, l)] * at).sum();
-            program.problem.linear[i] += weight * (self.term.gradient[k] - 2.0 * pull);
-            quadratic.push(row.into_iter().enumerate().filter(|&(j, value)| value != 0.0 || j == i));
+        program.problem.quadratic = self.term.hessian_with(&base.problem.quadratic, self.places, weight);
+        let curved = &self.term.form * DVector::from_row_slice(&self.at);
+        for ((&place, slope), pull) in self.places.iter().zip(&self.term.gradient).zip(curved.iter()) {
+            program.problem.linear[place] += weight * (slope - 2.0 * pull);
         }
-        program.problem.quadratic = quadratic;
         program
     }
 }

@@ -336,9 +336,11 @@ fn suspect_lines(table: &OffsetTable, grid: Grid, suspect: &Suspect) -> String {
         verdict.score,
         probability(suspect.probability)
     );
-    for (name, [expected, uncertainty]) in [("station", verdict.along_station), (column, verdict.along_waterline)] {
-        let expected = lengths::length(own, expected, 4);
-        text.push_str(&format!("     along the {name:<9} {expected:>11} ± {:.1} mm\n", 1000.0 * uncertainty));
+    let along = [("station", verdict.along_station), (column, verdict.along_waterline)];
+    let expected = along.map(|(_, [expected, _])| lengths::length(own, expected, 4));
+    let width = expected.iter().map(String::len).fold(11, usize::max);
+    for ((name, [_, uncertainty]), expected) in along.into_iter().zip(expected) {
+        text.push_str(&format!("     along the {name:<9} {expected:>width$} ± {:.1} mm\n", 1000.0 * uncertainty));
     }
     text + &named_readings(own, &suspect.readings)
 }
@@ -350,11 +352,10 @@ fn named_readings(notation: Notation, readings: &[Reading]) -> String {
     for reading in named.take(NAMED) {
         let value =
             if reading.text.is_empty() { lengths::length(notation, reading.value, 4) } else { reading.text.clone() };
-        text.push_str(&format!(
-            "     {:<36} {value:>12}  p {}\n",
-            reading.hypothesis.as_str(),
-            probability(reading.probability)
-        ));
+        // Both together have 49 columns, whatever the unit.
+        let width = 48_usize.saturating_sub(value.len().max(12));
+        let name = reading.hypothesis.as_str();
+        text.push_str(&format!("     {name:<width$} {value:>12}  p {}\n", probability(reading.probability)));
     }
     text
 }

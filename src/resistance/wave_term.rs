@@ -16,6 +16,7 @@ use super::michell::{ThinShip, WaveForms};
 use super::water::Water;
 use crate::hull::{Hull, HullError};
 use crate::numeric::join;
+use crate::qp::SparseRows;
 
 /// Most half-breadths that may change: R_W couples each with all others.
 const MOST_FREE: usize = 1500;
@@ -166,6 +167,26 @@ impl WaveTerm {
             }
         }
         Ok(term)
+    }
+
+    /// A form over unknowns with that of w R, 2 w G, at the unknowns that the free control values are.
+    #[must_use]
+    pub fn hessian_with(&self, form: &SparseRows, places: &[usize], weight: f64) -> SparseRows {
+        let n = form.column_count();
+        let mut number = vec![None; n];
+        places.iter().enumerate().for_each(|(k, &place)| number[place] = Some(k));
+        let mut hessian = SparseRows::new(n);
+        for (i, number) in number.into_iter().enumerate() {
+            let Some(k) = number else {
+                hessian.push(form.entries(i));
+                continue;
+            };
+            let mut row = vec![0.0; n];
+            form.entries(i).for_each(|(j, value)| row[j] += value);
+            places.iter().enumerate().for_each(|(l, &j)| row[j] += 2.0 * weight * self.form[(k, l)]);
+            hessian.push(row.into_iter().enumerate().filter(|&(j, value)| value != 0.0 || j == i));
+        }
+        hessian
     }
 
     /// R after a change of the free control values \[m\].

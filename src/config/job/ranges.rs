@@ -56,12 +56,6 @@ pub(super) fn price(document: &mut Document<'_>) -> Option<f64> {
     allowed(document, "inflections.cost", value, value > 0.0 && value <= MOST_PRICE, &expected)
 }
 
-/// The weight of the wave resistance [m^2].
-pub(super) fn wave_weight(document: &mut Document<'_>) -> Option<f64> {
-    let value = document.number("waves.weight")?;
-    allowed(document, "waves.weight", value, value > 0.0, "a positive number")
-}
-
 /// A grade of fairness, by number or name.
 pub(super) fn fairness(document: &mut Document<'_>) -> Option<Fairness> {
     match document.number_or_word("fairness")? {

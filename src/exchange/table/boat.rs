@@ -33,7 +33,7 @@ use crate::hull::{
 };
 
 /// Points of a section nearer than this are one \[m\].
-const SAME_POINT: f64 = 1e-6;
+pub(super) const SAME_POINT: f64 = 1e-6;
 
 /// Whether rows are lines with heights and half-breadths.
 pub(super) fn is_boat(rows: &[Vec<Field>]) -> bool {
@@ -320,11 +320,16 @@ fn points(lines: &Lines<'_>, heads: &[(usize, Position)], xs: &[f64], reader: &m
     points
 }
 
+/// Points of a section from below, those in one place once; `at` is half-breadth and height \[m\].
+pub(super) fn from_below<P>(mut points: Vec<P>, at: impl Fn(&P) -> [f64; 2]) -> Vec<P> {
+    points.sort_by(|a, b| at(a)[1].total_cmp(&at(b)[1]).then(at(a)[0].total_cmp(&at(b)[0])));
+    points.dedup_by(|a, b| (0..2).all(|k| (at(a)[k] - at(b)[k]).abs() < SAME_POINT));
+    points
+}
+
 /// A section from the keel to the sheer.
 fn outline<'p>(points: impl Iterator<Item = &'p LinePoint>, has_cuts: bool) -> Vec<OutlinePoint> {
-    let mut sorted: Vec<&LinePoint> = points.collect();
-    sorted.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.y.total_cmp(&b.y)));
-    sorted.dedup_by(|a, b| (a.z - b.z).abs() < SAME_POINT && (a.y - b.y).abs() < SAME_POINT);
+    let sorted = from_below(points.collect(), |point: &&LinePoint| [point.y, point.z]);
     let last = sorted.len().saturating_sub(1);
     let is_knuckle = |(k, point): (usize, &&LinePoint)| {
         let named = ["chine", "knuckle", "rabbet"].iter().any(|word| point.name.contains(word));

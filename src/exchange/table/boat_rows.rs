@@ -1,12 +1,11 @@
 //! Tables of lines of boats, written as they are read ([`super::boat`]): rows of heights and half-breadths along the stations.
 //! Points of sections are those of the lines in the order of their heights.
 
+use super::boat::{SAME_POINT, from_below};
 use super::write::Writer;
 use crate::hull::{Cell, Entry, Marks, OffsetTable, OutlinePoint, StationDatum, WrittenLine, WrittenPoint};
 use crate::units::Notation;
 
-/// Points of a section nearer than this are one \[m\].
-const SAME_POINT: f64 = 1e-6;
 /// What the coordinates of a row are, and what a row at the other coordinate is called.
 const GROUPS: [(usize, &str, &str); 2] = [(1, "heights", "Butt"), (0, "half-breadths", "WL")];
 
@@ -24,8 +23,7 @@ impl Places {
             written.get_mut(point.station)?.push(point.given);
         }
         for (points, station) in written.iter_mut().zip(&table.stations) {
-            points.sort_by(|[a, low], [b, high]| low.total_cmp(high).then(a.total_cmp(b)));
-            points.dedup_by(|[a, low], [b, high]| (*low - *high).abs() < SAME_POINT && (*a - *b).abs() < SAME_POINT);
+            *points = from_below(std::mem::take(points), |point| *point);
             if points.len() != station.outlines.first()?.len() || station.outlines.len() != 1 {
                 return None;
             }

@@ -93,6 +93,11 @@ fn digits(table: &OffsetTable) -> usize {
     digits.max().unwrap_or(0)
 }
 
+/// Whether the lines before a table state a key.
+fn states(form: &TableForm, key: &str) -> bool {
+    form.preamble.iter().any(|line| line.trim_start_matches('#').trim_start().starts_with(key))
+}
+
 /// Comment lines with the name and the stated particulars.
 fn stated_lines(table: &OffsetTable) -> Vec<String> {
     let name: String = table.name.chars().filter(|c| !c.is_control()).collect();
@@ -136,11 +141,10 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
     let renotated = notation != form.notation;
     // A unit in the corner is that of the positions; that of the offsets was said elsewhere, and is said here.
     let apart = |unit: Notation| (unit.metres(1.0) - notation.metres(1.0)).abs() > 0.0;
-    let says = |line: &String| line.trim_start_matches('#').trim_start().starts_with("units");
     if !renotated
         && notation != Notation::FeetInchesEighths
         && form.corner.as_deref().and_then(unit_of).is_some_and(apart)
-        && !form.preamble.iter().any(says)
+        && !states(&form, "units")
     {
         form.preamble.push(format!("# units = {}", notation.as_str()));
     }
@@ -190,8 +194,7 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
             }
         }
     }
-    let says_full = |line: &String| line.trim_start_matches('#').trim_start().starts_with("breadths");
-    if layout == TableLayout::Tidy && form.full_breadths && !form.preamble.iter().any(says_full) {
+    if layout == TableLayout::Tidy && form.full_breadths && !states(&form, "breadths") {
         // The column y has no other word for it.
         form.preamble.push("# breadths = full".to_owned());
     }
@@ -208,8 +211,7 @@ fn boat_table(table: &OffsetTable) -> Option<WrittenTable> {
     let mut form = table.form.clone();
     let own = !form.full_breadths && !form.negative;
     (form.full_breadths, form.negative) = (false, false);
-    let says = |line: &String| line.trim_start_matches('#').trim_start().starts_with("units");
-    if form.notation != Notation::FeetInchesEighths && !form.preamble.iter().any(says) {
+    if form.notation != Notation::FeetInchesEighths && !states(&form, "units") {
         form.preamble.push(format!("# units = {}", form.notation.as_str()));
     }
     let stated: Vec<String> = stated_lines(table).into_iter().filter(|line| !form.preamble.contains(line)).collect();

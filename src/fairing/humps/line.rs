@@ -49,7 +49,12 @@ pub(super) fn inflections(humps: &[Hump]) -> usize {
 
 /// Inflections of a net along a line that depart from their chords by `seen` \[m\] at least.
 pub(super) fn counted(bends: &[Bend], net: &[f64], seen: f64) -> usize {
-    inflections(&humps(bends, &vec![0.0; bends.len()], net, 1.0, seen))
+    inflections(&bare_humps(bends, net, seen))
+}
+
+/// The humps of a net, however clear they are.
+fn bare_humps(bends: &[Bend], net: &[f64], seen: f64) -> Vec<Hump> {
+    humps(bends, &vec![0.0; bends.len()], net, 1.0, seen)
 }
 
 /// Marks the humps that those before have none of the same sign for.
@@ -101,6 +106,12 @@ pub(super) fn joined(humps: &[Hump], k: usize) -> (Hump, Range<usize>) {
 }
 
 impl Asked {
+    /// A line that is asked for the signs that it has on a net.
+    pub(super) fn as_it_is(bends: &[Bend], net: &[f64], seen: f64) -> Self {
+        let humps = bare_humps(bends, net, seen);
+        Self { bends: bends.to_vec(), back: vec![false; humps.len()], humps, watched: true, around: 1 }
+    }
+
     /// Signs of all places once the humps below the price are removed; none where none is.
     pub(super) fn signs(&self, price: f64) -> Option<Vec<i8>> {
         let least = price.sqrt();

@@ -6,7 +6,7 @@
 //! it in the same or the opposite direction.
 
 use super::boxes::{Bounds, Boxes, around, widened};
-use super::shells::connected;
+use super::shells::chains;
 use super::{TriangleMesh, open_edges};
 use crate::spline::{cross, dot, length, minus};
 use std::collections::{BTreeMap, HashMap};
@@ -152,10 +152,8 @@ impl Rims {
     fn join(&mut self, mesh: &TriangleMesh, low: f64) {
         let mut loops: Vec<(usize, Bounds, [f64; 3])> = Vec::new();
         for (shell, rims) in self.by_shell.iter().enumerate() {
-            let mut at = BTreeMap::new();
-            let ends = rims.iter().enumerate().flat_map(|(k, &rim)| self.rims[rim].ends.map(|vertex| (k, vertex)));
-            let pairs: Vec<[usize; 2]> = ends.map(|(k, vertex)| [k, *at.entry(vertex).or_insert(k)]).collect();
-            for edges in connected(rims.len(), pairs.into_iter()) {
+            let edges: Vec<[usize; 2]> = rims.iter().map(|&rim| self.rims[rim].ends).collect();
+            for edges in chains(&edges) {
                 let ends = || edges.iter().map(|&k| self.rims[rims[k]].ends.map(|v| mesh.vertices[v]));
                 let turn = ends().fold([0.0; 3], |sum, [p, q]| {
                     let area = cross(p, q);

@@ -221,17 +221,10 @@ impl TriangleMesh {
         let [least, greatest] = self.bounds()?;
         let extent = minus(greatest, least);
         let open = self.openings(ONE);
-        let mut at = HashMap::new();
-        let ends = open.iter().enumerate().flat_map(|(k, edge)| edge.map(|vertex| (k, vertex)));
-        let pairs: Vec<[usize; 2]> = ends.map(|(k, vertex)| [k, *at.entry(vertex).or_insert(k)]).collect();
         let skin: f64 = self.corners().map(triangle_area).sum();
         let hole = |edges: &Vec<usize>| {
             let points = || edges.iter().flat_map(|&k| open[k]).map(|vertex| self.vertices[vertex]);
-            let first = points().next()?;
-            let fold = |pick: fn(f64, f64) -> f64| {
-                points().fold(first, |ends, point| [0, 1, 2].map(|k| pick(ends[k], point[k])))
-            };
-            let bounds = [fold(f64::min), fold(f64::max)];
+            let bounds = around(points());
             let middle = mean(edges.iter().map(|&k| self.vertices[open[k][0]]), edges.len());
             let area: f64 = edges
                 .iter()
@@ -241,8 +234,7 @@ impl TriangleMesh {
             let is_low = bounds[0][2] - least[2] < LOW * extent[2];
             (is_long && is_low && area > WIDE * skin).then_some((area / skin, bounds))
         };
-        let holes = connected(open.len(), pairs.into_iter());
-        holes.iter().filter_map(hole).max_by(|a, b| a.0.total_cmp(&b.0))
+        chains(&open).iter().filter_map(hole).max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The shells, those with the largest boxes around them first.
@@ -268,10 +260,7 @@ impl TriangleMesh {
     fn covered(&self, shell: &[usize]) -> Vec<[[f64; 3]; 3]> {
         let triangles = shell.iter().map(|&t| self.triangles[t]);
         let open = open_edges(triangles.clone());
-        let mut at = HashMap::new();
-        let ends = open.iter().enumerate().flat_map(|(k, edge)| edge.map(|vertex| (k, vertex)));
-        let pairs = ends.map(|(k, vertex)| [k, *at.entry(vertex).or_insert(k)]);
-        let openings = connected(open.len(), pairs);
+        let openings = chains(&open);
         let fans = openings.iter().flat_map(|edges| {
             let first = edges.iter().map(|&k| self.vertices[open[k][0]]);
             let middle = mean(first, edges.len());
@@ -314,6 +303,13 @@ pub(super) fn connected(count: usize, pairs: impl Iterator<Item = [usize; 2]>) -
     }
     parts.retain(|part| !part.is_empty());
     parts
+}
+
+/// Edges that hang together at their ends, by their places in the list.
+pub(super) fn chains(edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    let mut at = HashMap::new();
+    let ends = edges.iter().enumerate().flat_map(|(k, edge)| edge.map(|vertex| (k, vertex)));
+    connected(edges.len(), ends.map(|(k, vertex)| [k, *at.entry(vertex).or_insert(k)]))
 }
 
 /// The solid angle of a triangle seen from the origin; 0 where that is in its plane.
