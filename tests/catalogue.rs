@@ -94,6 +94,8 @@ fn hulls_of_the_catalogue_are_inputs() {
     let done = program(&["hydro", "catalogue:s157"]);
     assert_eq!(done.status.code(), Some(3));
     assert!(stderr(&done).contains("E133") && stderr(&done).contains("Known are bulk-carrier"), "{}", stderr(&done));
+    let done = program(&["hydro", "s175"]);
+    assert!(stderr(&done).contains("E133") && stderr(&done).contains("Give catalogue:s175"), "{}", stderr(&done));
 }
 
 #[test]

@@ -18,6 +18,7 @@ fn problem(quadratic: &[(usize, usize, f64)], linear: &[f64], rows: &[Limited]) 
         matrix.push(row.iter().copied());
     }
     Problem {
+        squares: SparseRows::new(n),
         quadratic: SparseRows::from_entries(n, n, quadratic),
         linear: linear.to_vec(),
         rows: matrix,

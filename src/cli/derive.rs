@@ -15,8 +15,8 @@ use crate::report::{
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(super) struct Arguments {
-    /// The parent: hull.json, a folder that holds one, a design, a table of offsets, a mesh or CAD file; or a job file with
-    /// [derive]
+    /// The parent: hull.json, a folder that holds one, a design, a table of offsets, a mesh or CAD file, catalogue:NAME; or a job
+    /// file with [derive]
     parent: PathBuf,
     /// How targets are met: affine, one-minus-prismatic, lackenby or nearest [default: nearest]
     #[arg(long, value_name = "METHOD")]

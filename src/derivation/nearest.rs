@@ -234,11 +234,18 @@ impl<'a> Search<'a> {
             lower.push((candidate.lower - candidate.value(&self.base)) / size);
             upper.push(f64::INFINITY);
         }
-        let (quadratic, linear) = match towards {
-            None => self.objective(n),
-            Some(row) => (SparseRows::from_entries(n, n, &[]), row.to_vec()),
+        let no_squares = SparseRows::new(n);
+        let (quadratic, linear, squares) = match (towards, self.waves) {
+            (Some(row), _) => (SparseRows::from_entries(n, n, &[]), row.to_vec(), no_squares),
+            (None, None) => (self.form.clone(), vec![0.0; n], no_squares),
+            // J + w R over the square of the unit.
+            (None, Some((term, weight))) => {
+                let places: Vec<usize> = (0..n).collect();
+                let slopes = term.gradient.iter().map(|g| weight * g / self.unit).collect();
+                (self.form.clone(), slopes, term.squares(n, &places, weight))
+            }
         };
-        Problem { quadratic, linear, rows, lower, upper }
+        Problem { quadratic, linear, squares, rows, lower, upper }
     }
 
     /// The limits that are in the program.
@@ -251,13 +258,6 @@ impl<'a> Search<'a> {
         let row = self.freedom.row(candidate.row.iter().copied());
         let size = row.iter().map(|(_, w)| w.abs()).fold(0.0, f64::max).max(1e-300) * self.unit;
         (row, size)
-    }
-
-    /// Hessian and slope of J + w R over the square of the unit.
-    fn objective(&self, n: usize) -> (SparseRows, Vec<f64>) {
-        let Some((term, weight)) = self.waves else { return (self.form.clone(), vec![0.0; n]) };
-        let places: Vec<usize> = (0..n).collect();
-        (term.hessian_with(&self.form, &places, weight), term.gradient.iter().map(|g| weight * g / self.unit).collect())
     }
 
     /// J of half-breadths [m^2].

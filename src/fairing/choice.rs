@@ -50,12 +50,13 @@ pub(super) fn worth_it(
     // About the net, and in units of the least price: what is left of the objective is what the lines cost.
     let unit = prices.iter().copied().fold(f64::INFINITY, f64::min);
     let centre = reduced.unknowns_of(net);
-    let slopes = old.quadratic.apply(&centre).into_iter().zip(&old.linear).map(|(slope, linear)| slope + linear);
+    let slopes = old.curved(&centre).into_iter().zip(&old.linear).map(|(slope, linear)| slope + linear);
     let there = old.rows.apply(&centre);
     let moved = |limits: &[f64]| limits.iter().zip(&there).map(|(limit, value)| limit - value).collect();
     let mut problem = Problem {
         quadratic: widened(&old.quadratic, unit.recip()),
         linear: slopes.chain(prices.iter().copied()).map(|slope| slope / unit).collect(),
+        squares: widened(&old.squares, unit.recip().sqrt()),
         rows: widened(&old.rows, 1.0),
         lower: moved(&old.lower),
         upper: moved(&old.upper),

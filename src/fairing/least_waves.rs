@@ -9,13 +9,14 @@
 //! [`crate::resistance::WaveTerm`] has R_W and what is known of such programs. Tried: the misfit beside the energy. Tables without noise have
 //! little energy in their objective, and a Wigley hull got 250 monotone pieces for 90.
 
-use nalgebra::DVector;
+use std::cell::{Cell, RefCell};
 
 use super::fair::FairError;
 use super::humps::Question;
 use super::program::{Program, Solved, Wishes, symmetric};
 use super::surface::FairSurface;
 use crate::hull::Hull;
+use crate::qp::RepeatedSolver;
 use crate::resistance::{NoWaveTerm, WaveRequest, WaveResult, WaveTerm, WaveTrade, knee};
 
 /// What is asked, and the draught at which it is \[m\].
@@ -53,11 +54,15 @@ impl Term<'_> {
     /// The program with w R beside its objective.
     fn added(&self, base: &Program, weight: f64) -> Program {
         let mut program = base.clone();
-        program.problem.quadratic = self.term.hessian_with(&base.problem.quadratic, self.places, weight);
-        let curved = &self.term.form * DVector::from_row_slice(&self.at);
-        for ((&place, slope), pull) in self.places.iter().zip(&self.term.gradient).zip(curved.iter()) {
-            program.problem.linear[place] += weight * (slope - 2.0 * pull);
+        let squares = self.term.squares(base.problem.linear.len(), self.places, weight);
+        // |F'(x - at)|^2 = |F'x|^2 - 2 (F F'at)'x + ...
+        let mut there = vec![0.0; base.problem.linear.len()];
+        self.places.iter().zip(&self.at).for_each(|(&place, at)| there[place] = *at);
+        let pull = squares.apply_transposed(&squares.apply(&there));
+        for (&place, slope) in self.places.iter().zip(&self.term.gradient) {
+            program.problem.linear[place] += weight * slope - pull[place];
         }
+        program.problem.squares = squares;
         program
     }
 }
@@ -98,10 +103,12 @@ pub(super) fn least_waves(
     let energy = question.smoother.energy_of_moves(question.lambda);
     base.problem.quadratic = symmetric(&energy, 2.0);
     base.problem.linear = energy.apply(&unknowns).iter().map(|slope| -2.0 * slope).collect();
-    let work = std::cell::Cell::new([0; 2]);
+    let work = Cell::new([0; 2]);
+    let solver = RefCell::new(RepeatedSolver::new(question.solver));
     let solved = |weight: f64| -> Result<Option<(Program, Solved, WaveTrade)>, FairError> {
         let program = term.added(&base, weight);
-        let solved = program.solve(question.smoother, question.lambda, question.solver)?;
+        let solution = solver.borrow_mut().solve(&program.problem).map_err(FairError::from)?;
+        let solved = program.judged(solution, question.smoother, question.lambda);
         let [programs, iterations] = work.get();
         work.set([programs + 1, iterations + solved.solution.iterations]);
         if !solved.is_optimal() {

@@ -125,6 +125,7 @@ impl Program {
         let problem = Problem {
             quadratic: symmetric(&normal, 2.0),
             linear: right.iter().map(|b| -2.0 * b).collect(),
+            squares: SparseRows::new(n),
             rows: SparseRows::new(n),
             lower: Vec::new(),
             upper: Vec::new(),
@@ -288,11 +289,15 @@ impl Program {
         settings: &Settings,
         start: Option<&Interior>,
     ) -> Result<Solved, ProblemError> {
-        let solution = self.problem.solve_from(settings, start)?;
+        Ok(self.judged(self.problem.solve_from(settings, start)?, smoother, lambda))
+    }
+
+    /// An answer with what can be known of it without the solver.
+    pub(super) fn judged(&self, solution: Solution, smoother: &Smoother, lambda: f64) -> Solved {
         let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let net = smoother.reduced.expand(&solution.x);
         let objective = smoother.objective(lambda, &solution.x);
-        Ok(Solved { solution, certificate, net, objective })
+        Solved { solution, certificate, net, objective }
     }
 }
 

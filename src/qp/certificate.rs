@@ -52,7 +52,7 @@ impl Problem {
                 }
             }
         }
-        let curved = self.quadratic.apply(x);
+        let curved = self.curved(x);
         let pull = self.rows.apply_transposed(&clipped);
         let (mut square, mut linear, mut rest, mut worst, mut scale) = (0.0, 0.0, 0.0, 0.0_f64, 1.0_f64);
         for index in 0..x.len() {

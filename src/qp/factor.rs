@@ -55,6 +55,7 @@ impl LeastFactor {
         Problem {
             quadratic: SparseRows::from_entries(n + 1, n + 1, &[]),
             linear,
+            squares: SparseRows::new(n + 1),
             rows: self.rows,
             lower: self.lower,
             upper: self.upper,

@@ -2,13 +2,15 @@
 
 use super::sparse::SparseRows;
 
-/// min 1/2 x'P x + q'x subject to l <= A x <= u.
+/// min 1/2 x'P x + q'x + 1/2 |F x|^2 subject to l <= A x <= u.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// P, symmetric positive semidefinite, both triangles stored, n x n.
     pub quadratic: SparseRows,
     /// q, length n.
     pub linear: Vec<f64>,
+    /// F, dense forms of which the objective has half the squares, any number of rows x n.
+    pub squares: SparseRows,
     /// A, m x n.
     pub rows: SparseRows,
     /// l, length m; minus infinity where there is no lower limit.
@@ -123,7 +125,8 @@ impl Problem {
     #[must_use]
     pub fn without_objective(&self) -> Self {
         let n = self.linear.len();
-        Self { quadratic: SparseRows::from_entries(n, n, &[]), linear: vec![0.0; n], ..self.clone() }
+        let (quadratic, squares) = (SparseRows::from_entries(n, n, &[]), SparseRows::new(n));
+        Self { quadratic, linear: vec![0.0; n], squares, ..self.clone() }
     }
 
     /// Checks shapes and numbers.
@@ -135,6 +138,7 @@ impl Problem {
         let shapes = [
             ("the quadratic part", self.quadratic.row_count(), n),
             ("a row of the quadratic part", self.quadratic.column_count(), n),
+            ("a square", self.squares.column_count(), n),
             ("a row", self.rows.column_count(), n),
             ("the lower limits", self.lower.len(), m),
             ("the upper limits", self.upper.len(), m),
@@ -147,6 +151,7 @@ impl Problem {
         let numbers = [
             ("quadratic entry", self.quadratic.values()),
             ("linear entry", &self.linear[..]),
+            ("entry of a square", self.squares.values()),
             ("row entry", self.rows.values()),
         ];
         for (what, values) in numbers {
@@ -166,10 +171,10 @@ impl Problem {
         Ok(())
     }
 
-    /// 1/2 x'P x + q'x.
+    /// 1/2 x'P x + q'x + 1/2 |F x|^2.
     #[must_use]
     pub fn objective(&self, x: &[f64]) -> f64 {
-        let curved = self.quadratic.apply(x);
+        let curved = self.curved(x);
         x.iter().zip(&curved).zip(&self.linear).map(|((x, p), q)| x * (0.5 * p + q)).sum()
     }
 

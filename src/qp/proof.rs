@@ -5,7 +5,7 @@
 //! is none at all (Boyd & Vandenberghe 2004, section 5.8); with r at rounding level the radius says how far away one
 //! would have to be.
 //!
-//! *Rays.* With P d = 0, q'd < 0 and A d in the recession cone of [l, u], x + t d stays feasible and falls without end.
+//! *Rays.* With P d = 0, F d = 0, q'd < 0 and A d in the recession cone of [l, u], x + t d stays feasible and falls without end.
 
 use super::problem::Problem;
 
@@ -35,12 +35,13 @@ impl Problem {
     pub fn ray_defect(&self, d: &[f64]) -> f64 {
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let slope: f64 = d.iter().zip(&self.linear).map(|(d, q)| d * q).sum();
-        let (steep, curved) = (size(&self.linear), size(self.quadratic.values()));
+        let (steep, curved) = (size(&self.linear), size(self.quadratic.values()).max(size(self.squares.values())));
         if slope.is_nan() || slope >= 0.0 {
             return f64::INFINITY;
         }
         let fall = -slope / steep;
-        let mut defect = if curved > 0.0 { size(&self.quadratic.apply(d)) / curved } else { 0.0 };
+        let mut defect =
+            if curved > 0.0 { size(&self.quadratic.apply(d)).max(size(&self.squares.apply(d))) / curved } else { 0.0 };
         for row in 0..self.rows.row_count() {
             let scale = self.rows.row_size(row);
             if scale > 0.0 {

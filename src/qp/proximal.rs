@@ -1,7 +1,7 @@
 //! Proximal points (Rockafellar 1976) for linear programs on which the interior point stalls: each step solves
 //!
 //! ```text
-//! minimise  1/2 x'P x + q'x + 1/2 rho |x - x_k|^2   subject to  l <= A x <= u
+//! minimise  1/2 x'P x + q'x + 1/2 |F x|^2 + 1/2 rho |x - x_k|^2   subject to  l <= A x <= u
 //! ```
 //!
 //! whose minimiser is unique. Of a linear program finitely many steps reach an optimum, where the multipliers of the
@@ -73,6 +73,7 @@ mod tests {
         Problem {
             quadratic: SparseRows::from_entries(2, 2, &[]),
             linear: vec![1.0, 1.0],
+            squares: SparseRows::new(2),
             rows,
             lower: vec![4.0, 6.0],
             upper: vec![f64::INFINITY; 2],

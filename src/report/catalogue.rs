@@ -155,6 +155,13 @@ pub(super) fn catalogue_bytes(path: &Path) -> Option<Result<Vec<u8>, Failure>> {
     Some(carried(name).map(|(_, text)| text.into_bytes()).ok_or_else(missing))
 }
 
+/// What is wrong with a path that names no file, but without its prefix a hull of the catalogue; none for other paths.
+pub(super) fn without_prefix(path: &Path) -> Option<Failure> {
+    let name = path.to_str().filter(|name| carried(name).is_some())?;
+    let message = "no file has this name; a hull of the catalogue has".to_owned();
+    Some(Failure::Input(vec![problem("E133", path, message, format!("Give {PREFIX}{name}"))]))
+}
+
 /// What a comment `key: value` of a table says.
 fn comment<'t>(text: &'t str, key: &str) -> &'t str {
     let lines = text.lines().filter_map(|line| line.strip_prefix('#'));

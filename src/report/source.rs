@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use super::catalogue::{catalogue_bytes, catalogue_ending};
+use super::catalogue::{catalogue_bytes, catalogue_ending, without_prefix};
 use super::doubts::{drawn_doubt, suspects_doubt};
 use super::failure::{COMMAND_LINE, Failure, problem};
 use super::verdict::{is_warning, without_folder};
@@ -110,7 +110,10 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
         return standard_input();
     }
     name_of_file(path)?;
-    let failure = |error| Failure::FileSystem { act: "read", path: path.to_owned(), error };
+    let failure = |error: std::io::Error| {
+        let named = without_prefix(path).filter(|_| error.kind() == ErrorKind::NotFound);
+        named.unwrap_or_else(|| Failure::FileSystem { act: "read", path: path.to_owned(), error })
+    };
     let body = path.extension().is_some_and(|e| BODIES.iter().any(|known| e.eq_ignore_ascii_case(known)));
     let most = if body { LARGEST_BODY } else { LARGEST_INPUT };
     let mut bytes = Vec::new();

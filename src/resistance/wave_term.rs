@@ -10,16 +10,15 @@
 //! Here J is the bending of the change from a parent, or the energy of the move from the fair hull of a table. Signs of curvature,
 //! displacement and centres are rows.
 
-use nalgebra::{DMatrix, DVector};
-
+use super::michell::roots::roots;
 use super::michell::{ThinShip, WaveForms};
 use super::water::Water;
 use crate::hull::{Hull, HullError};
 use crate::numeric::join;
 use crate::qp::SparseRows;
 
-/// Most half-breadths that may change: R_W couples each with all others.
-const MOST_FREE: usize = 1500;
+/// Most half-breadths that may change: the linear forms of R_W at a speed take about 12 kB for each.
+const MOST_FREE: usize = 5000;
 /// R that the middle one of seven weights gains, about.
 const MIDDLE_GAIN: f64 = 0.1;
 /// Factor from one weight to the next.
@@ -76,8 +75,8 @@ pub struct WaveTerm {
     pub value: f64,
     /// g, by the free control values [1/m].
     pub gradient: Vec<f64>,
-    /// G, over the free control values [1/m^2].
-    pub form: DMatrix<f64>,
+    /// Columns of a matrix F over the free control values [1/m]: R(c + d) = R + g'd + |F'd|^2.
+    pub roots: Vec<Vec<f64>>,
 }
 
 impl WaveRequest {
@@ -126,9 +125,7 @@ pub enum NoWaveTerm {
     #[error("the waterlines of {0} are not lines of its net, over which R_W is a quadratic form")]
     NotLevel(String),
     /// Too many half-breadths that may change.
-    #[error(
-        "{0} has {1} half-breadths below the waterline that may change, and R_W couples each with all others: at most {MOST_FREE}"
-    )]
+    #[error("{0} has {1} half-breadths below the waterline that may change: at most {MOST_FREE}")]
     TooMany(String, usize),
     /// The hull does not float at its draught.
     #[error(transparent)]
@@ -154,8 +151,7 @@ impl WaveTerm {
             return Err(NoWaveTerm::TooMany(start.name().to_owned(), free.len()));
         }
         let speeds = request.speeds(start.particulars().length_between_perpendiculars);
-        let count = free.len();
-        let mut term = Self { value: 0.0, gradient: vec![0.0; count], form: DMatrix::zeros(count, count) };
+        let mut term = Self { value: 0.0, gradient: vec![0.0; free.len()], roots: Vec::new() };
         let at = |k: usize| forms.at(speeds[k], &request.water, free);
         for pair in (0..speeds.len()).collect::<Vec<_>>().chunks(2) {
             let (first, second) = join(|| at(pair[0]), || pair.get(1).map(|&k| at(k)));
@@ -163,37 +159,31 @@ impl WaveTerm {
                 let part = 1.0 / (before[k] * speeds.len() as f64);
                 term.value += part * found.resistance;
                 term.gradient.iter_mut().zip(&found.gradient).for_each(|(sum, g)| *sum += part * g);
-                term.form += part * found.form;
+                let sized = |mut root: Vec<f64>| {
+                    root.iter_mut().for_each(|value| *value *= part.sqrt());
+                    root
+                };
+                term.roots.extend(found.roots.into_iter().map(sized));
             }
         }
+        term.roots = roots(&term.roots);
         Ok(term)
     }
 
-    /// A form over unknowns with that of w R, 2 w G, at the unknowns that the free control values are.
+    /// The forms whose half squares are w |F'd|^2, over the unknowns that the free control values are.
     #[must_use]
-    pub fn hessian_with(&self, form: &SparseRows, places: &[usize], weight: f64) -> SparseRows {
-        let n = form.column_count();
-        let mut number = vec![None; n];
-        places.iter().enumerate().for_each(|(k, &place)| number[place] = Some(k));
-        let mut hessian = SparseRows::new(n);
-        for (i, number) in number.into_iter().enumerate() {
-            let Some(k) = number else {
-                hessian.push(form.entries(i));
-                continue;
-            };
-            let mut row = vec![0.0; n];
-            form.entries(i).for_each(|(j, value)| row[j] += value);
-            places.iter().enumerate().for_each(|(l, &j)| row[j] += 2.0 * weight * self.form[(k, l)]);
-            hessian.push(row.into_iter().enumerate().filter(|&(j, value)| value != 0.0 || j == i));
+    pub fn squares(&self, unknowns: usize, places: &[usize], weight: f64) -> SparseRows {
+        let mut squares = SparseRows::new(unknowns);
+        for root in &self.roots {
+            squares.push(places.iter().zip(root).map(|(&place, value)| (place, (2.0 * weight).sqrt() * value)));
         }
-        hessian
+        squares
     }
 
     /// R after a change of the free control values \[m\].
     pub fn after(&self, change: &[f64]) -> f64 {
-        let change = DVector::from_row_slice(change);
-        let linear: f64 = self.gradient.iter().zip(change.iter()).map(|(g, c)| g * c).sum();
-        self.value + linear + (&self.form * &change).dot(&change)
+        let along = |form: &[f64]| form.iter().zip(change).map(|(a, d)| a * d).sum::<f64>();
+        self.value + along(&self.gradient) + self.roots.iter().map(|root| along(root).powi(2)).sum::<f64>()
     }
 }
 

@@ -118,7 +118,8 @@ pub(crate) fn fairing_of(offsets: [usize; 2], net: [usize; 2], readings: &[f64])
         lower.push(0.0);
         upper.push(f64::INFINITY);
     }
-    Problem { quadratic: SparseRows::from_entries(n, n, &entries), linear, rows, lower, upper }
+    let squares = SparseRows::new(n);
+    Problem { quadratic: SparseRows::from_entries(n, n, &entries), linear, squares, rows, lower, upper }
 }
 
 /// What the objective of a random program is.
@@ -193,5 +194,6 @@ pub(crate) fn random(seed: u64, shape: Shape) -> Problem {
         upper.push(u);
     }
     let linear = (0..n).map(|_| rng.random_range(-1.0..1.0)).collect();
-    Problem { quadratic: SparseRows::from_entries(n, n, &entries), linear, rows, lower, upper }
+    let squares = SparseRows::new(n);
+    Problem { quadratic: SparseRows::from_entries(n, n, &entries), linear, squares, rows, lower, upper }
 }

@@ -198,7 +198,7 @@ impl Blending<'_> {
                 (SparseRows::from_entries(ways, ways, &entries), from.chain(mix.changes.iter().copied()).collect())
             }
         };
-        let problem = Problem { quadratic, linear, rows, lower, upper };
+        let problem = Problem { squares: SparseRows::new(linear.len()), quadratic, linear, rows, lower, upper };
         let solution =
             problem.solve(&Settings { tolerance: 1e-11, ..Settings::default() }).map_err(|_| Failed::Infeasible)?;
         let violation = problem.certificate(&solution.x, &solution.multipliers, 0.0).max_violation;

@@ -259,10 +259,19 @@ impl Constraint {
         !matches!(self, Self::Metacentre { .. } | Self::WettedSurface(_))
     }
 
-    /// [`Constraint::limit`] with `room` more to both sides, in the unit of the quantity.
+    /// [`Constraint::limit`] with `room` more to both sides, in the unit of the quantity. The row of a centre is over the volume or
+    /// area of `hull`, and that of the answer is another: a part of its room is left for that.
     #[must_use]
     #[doc(hidden)]
     pub fn limit_within(&self, hull: &Hull, room: f64) -> Limit {
+        let is_centre = matches!(
+            self,
+            Self::CentreOfBuoyancy(_)
+                | Self::HeightOfBuoyancy(_)
+                | Self::CentreOfFlotation(_)
+                | Self::CentreOfVolume { .. }
+        );
+        let room = if is_centre { (1.0 - LEFT_TO_SIZE) * room } else { room };
         let (limit, room) = (self.limit(hull), room / self.scale(hull));
         Limit { lower: limit.lower - room, upper: limit.upper + room, row: limit.row }
     }
@@ -293,6 +302,9 @@ impl Constraint {
 pub use breadth::{admit, between, breadths, broken, control_values, excess};
 pub use flat::{edged, edges};
 pub use rule::{FixedLine, Rule, TangentPlace};
+
+/// Part of the room of a centre that is left for a change of the volume or area that it is the centre of.
+const LEFT_TO_SIZE: f64 = 0.01;
 
 /// A dense row without its zeros, times a factor.
 fn compressed(row: &[f64], factor: f64) -> Row {

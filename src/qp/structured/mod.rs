@@ -54,7 +54,10 @@ use scaled::Scaled;
 
 /// A solver that keeps orderings, patterns and the last solution over changes of the numbers.
 pub struct Solver {
+    /// The problem over its unknowns and those of its squares ([`Problem::lifted`]).
     problem: Problem,
+    /// Unknowns and rows of the problem that was asked.
+    shape: [usize; 2],
     settings: Settings,
     scaled: Scaled,
     newton: Newton,
@@ -78,10 +81,13 @@ impl Solver {
     /// [`ProblemError`] when shapes or numbers are wrong.
     pub fn new(problem: &Problem, settings: &Settings) -> Result<Self, ProblemError> {
         problem.check()?;
-        let scaled = Scaled::new(problem);
+        let shape = [problem.linear.len(), problem.rows.row_count()];
+        let problem = problem.lifted();
+        let scaled = Scaled::new(&problem);
         let newton = Newton::new(&scaled);
         Ok(Self {
-            problem: problem.clone(),
+            problem,
+            shape,
             settings: settings.clone(),
             scaled,
             newton,
@@ -97,8 +103,11 @@ impl Solver {
     /// [`ProblemError`] when shapes, patterns or numbers are wrong; the solver then keeps the old ones.
     pub fn update(&mut self, problem: &Problem) -> Result<(), ProblemError> {
         problem.check()?;
-        let same =
-            self.problem.quadratic.same_pattern(&problem.quadratic) && self.problem.rows.same_pattern(&problem.rows);
+        let shape = [problem.linear.len(), problem.rows.row_count()];
+        let problem = problem.lifted();
+        let same = shape == self.shape
+            && self.problem.quadratic.same_pattern(&problem.quadratic)
+            && self.problem.rows.same_pattern(&problem.rows);
         if !same {
             return Err(ProblemError::Pattern);
         }
@@ -108,8 +117,8 @@ impl Solver {
         if !limits_alone {
             self.bound = None;
         }
-        self.problem.clone_from(problem);
-        self.scaled.load(problem);
+        self.scaled.load(&problem);
+        self.problem = problem;
         Ok(())
     }
 
@@ -124,21 +133,37 @@ impl Solver {
     /// # Errors
     /// [`ProblemError::Shape`] when it has other numbers of variables or rows.
     pub fn start_from(&mut self, start: &Interior) -> Result<(), ProblemError> {
-        let shapes = [
-            ("the start", start.x.len(), self.problem.linear.len()),
-            ("the rows of the start", start.rows.len(), self.problem.rows.row_count()),
-        ];
+        let [n, m] = self.shape;
+        let shapes = [("the start", start.x.len(), n), ("the rows of the start", start.rows.len(), m)];
         if let Some(&(what, found, expected)) = shapes.iter().find(|(_, found, expected)| found != expected) {
             return Err(ProblemError::Shape { what, found, expected });
         }
         self.bound = None;
-        self.kept = Some(start::like(&self.scaled, start));
+        self.kept = Some(start::like(&self.scaled, &self.problem.lifted_point(start)));
         Ok(())
     }
 
     /// Solves; a solve after the first starts from the rows that bound the last where limits alone have changed, else,
     /// and where that comes to nothing, from an iterate of the last.
     pub fn solve(&mut self) -> Solution {
+        let mut solution = self.solve_lifted();
+        let [n, m] = self.shape;
+        solution.x.truncate(n);
+        solution.multipliers.truncate(m);
+        solution.interior = solution.interior.map(|interior| self.asked(interior));
+        solution
+    }
+
+    /// A point over the unknowns and rows of the problem that was asked.
+    fn asked(&self, mut point: Interior) -> Interior {
+        let [n, m] = self.shape;
+        point.x.truncate(n);
+        point.rows.truncate(m);
+        point
+    }
+
+    /// The solution over the unknowns of the problem and of its squares.
+    fn solve_lifted(&mut self) -> Solution {
         let (n, m) = (self.problem.linear.len(), self.problem.rows.row_count());
         let failed = Solution {
             status: Status::Limit,
@@ -271,6 +296,7 @@ mod tests {
         Problem {
             quadratic: SparseRows::from_entries(n, n, &entries),
             linear: vec![0.0; n],
+            squares: SparseRows::new(n),
             rows,
             lower: wanted.iter().map(|y| y - band).collect(),
             upper: wanted.iter().map(|y| y + band).collect(),

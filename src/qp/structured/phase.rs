@@ -21,6 +21,7 @@ pub(super) fn nearest_feasible(problem: &Problem) -> Problem {
     Problem {
         quadratic: SparseRows::from_entries(n + m, n + m, &entries),
         linear: vec![0.0; n + m],
+        squares: SparseRows::new(n + m),
         rows,
         lower,
         upper,
@@ -64,6 +65,7 @@ pub(super) fn steepest_ray(problem: &Problem) -> Problem {
     Problem {
         quadratic: SparseRows::from_entries(n, n, &entries),
         linear: problem.linear.iter().map(|value| value / largest).collect(),
+        squares: SparseRows::new(n),
         rows,
         lower,
         upper,

@@ -3,6 +3,7 @@
 use super::factor::Factor;
 use super::newton::inverse;
 use super::scaled::Scaled;
+use crate::numeric::dense::{Block, subtract_product};
 
 /// Pivots below this part of their diagonal belong to rows that depend on earlier ones.
 const DEPENDENT: f64 = 1e-13;
@@ -25,13 +26,13 @@ impl Schur {
                 self.columns[place * n + index] = *value;
             }
         }
-        factor.solve(&mut self.columns);
+        let own = self.columns.clone();
+        factor.solve_many(&mut self.columns);
         let mut s = vec![0.0; count * count];
-        for i in 0..count {
-            for j in 0..=i {
-                s[i * count + j] = scaled.rows.dot(scaled.outside[i], &self.columns[j * n..(j + 1) * n]);
-            }
-            let row = scaled.outside[i];
+        let [own, solved] = [&own, &self.columns].map(|columns| Block::new(columns, [n, count], n));
+        subtract_product(&mut s, count, own.transposed(), solved);
+        s.iter_mut().for_each(|value| *value = -*value);
+        for (i, &row) in scaled.outside.iter().enumerate() {
             if !scaled.equal[row] {
                 s[i * count + i] += inverse(weights[row]);
             }

@@ -216,9 +216,9 @@ pub(super) const DESIGNS: [Explanation; 54] = [
     Explanation {
         code: "E133",
         title: "Hull that is not in the catalogue",
-        cause: "A path begins with `catalogue:`, and the name behind it is none of the catalogue.",
+        cause: "A path begins with `catalogue:`, and the name behind it is none of the catalogue; or that beginning is missing.",
         example: "`loftsman hydro catalogue:s157`.",
-        remedy: "Take a name that `loftsman catalogue` lists.",
+        remedy: "Give `catalogue:NAME` with a name that `loftsman catalogue` lists.",
     },
     Explanation {
         code: "E140",

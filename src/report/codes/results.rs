@@ -77,7 +77,7 @@ pub(super) const RESULTS: [Explanation; 24] = [
         code: "E425",
         title: "Wave resistance that is no quadratic form",
         cause: "Option `--wave-resistance` of `derive` and `fair` needs a hull whose waterlines are lines of its net. A surface with \
-         rocker has others. A net of more than 1500 half-breadths that may change is too large.",
+         rocker has others. A net of more than 5000 half-breadths that may change is too large.",
         example: "`loftsman derive yacht-with-rocker/hull.json --wave-resistance 0.35`.",
         remedy: "Take a hull with a level keel and level waterlines, as `generate` makes them.",
     },

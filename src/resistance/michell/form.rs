@@ -1,4 +1,4 @@
-//! The wave resistance of level hulls as a quadratic form of the control half-breadths, R_W = c'Gc.
+//! The wave resistance of level hulls as a quadratic form of the control half-breadths, R_W = c'Gc = |R'c|^2.
 //!
 //! F is linear in the control values, whatever the ends rake: at the depth d the waterline is a line v = constant of the net,
 //! x(u) its coordinate there, and
@@ -7,23 +7,21 @@
 //! F = sum over levels d of w_d e^{-q d} sum over i, j of B_j(v_d) int B_i'(u) e^{ikx(u)} du c_ij
 //! ```
 //!
-//! So the integral over the directions of the waves is a sum of squares of linear forms, G = sum of w (a a' + b b').
+//! So the integral over the directions of the waves is a sum of squares of linear forms, G = sum of w (a a' + b b'), of which
+//! [`super::roots`] leaves few.
 //! Accuracy: that of the evaluation of [`super::ThinShip`], at the end of the integral where that of the hull settles to 1e-6.
 
 use std::cell::RefCell;
 
-use nalgebra::DMatrix;
-
 use super::super::water::Water;
 use super::integral::{OctaveEnd, OctaveWeights, integral};
-use super::net::{Axis, NetKochin, NetValues};
+use super::net::{NetKochin, NetValues};
+use super::roots::roots;
 use super::waterlines::{NODES, Rings};
 use super::{TOLERANCES, factor, immersed_length};
 use crate::hull::Hull;
-use crate::spline::{BsplineCurve, MAX_DEGREE};
-
-/// Rows of the linear forms that are multiplied at once.
-const BATCH: usize = 256;
+use crate::numeric::gauss_legendre;
+use crate::spline::{KnotVector, MAX_DEGREE};
 
 /// A waterline v = constant with its weight.
 #[derive(Debug, Clone)]
@@ -32,14 +30,22 @@ struct Level {
     weight: f64,
     first: usize,
     heights: [f64; MAX_DEGREE + 1],
-    along: Axis,
-    fore: f64,
+    /// Control values of x along it \[m\].
+    lengths: Vec<f64>,
 }
 
 #[derive(Debug, Clone)]
 enum Rows {
     Net(NetKochin),
     Levels(Rings<Level>),
+}
+
+/// Gauss rules over the spans of u, for integrals of B_i'(u) e^{ikx(u)}.
+struct Mesh {
+    /// Nodes of a span.
+    count: usize,
+    /// The first basis function of each node, the basis there, and its slopes times the weight.
+    nodes: Vec<(usize, [[f64; MAX_DEGREE + 1]; 2])>,
 }
 
 /// A level hull below a waterline, ready for the quadratic forms of any number of speeds.
@@ -49,17 +55,20 @@ pub struct WaveForms {
     shape: [usize; 2],
     breadths: Vec<f64>,
     length: f64,
+    along: KnotVector,
+    /// Half of the longest span on any waterline \[m\].
+    half_span: f64,
 }
 
-/// R_W at one speed around a hull: R_W(c + d) = R_W + g'd + d'Gd over the control values that may change.
+/// R_W at one speed around a hull: R_W(c + d) = R_W + g'd + |R'd|^2 over the control values that may change.
 #[derive(Debug, Clone)]
 pub struct WaveForm {
     /// R_W \[N\].
     pub resistance: f64,
     /// g, by the control values that may change [N/m].
     pub gradient: Vec<f64>,
-    /// G, symmetric and positive semidefinite [N/m^2].
-    pub form: DMatrix<f64>,
+    /// Columns of R [N^1/2/m].
+    pub roots: Vec<Vec<f64>>,
 }
 
 impl WaveForms {
@@ -79,19 +88,22 @@ impl WaveForms {
             }
         };
         let breadths = surface.points().iter().map(|point| point[1]).collect();
-        Some(Self { rows, shape: surface.shape(), breadths, length: immersed_length(hull) })
+        let along = surface.u().clone();
+        let half_span = half_span(hull);
+        Some(Self { rows, shape: surface.shape(), breadths, length: immersed_length(hull), along, half_span })
     }
 
     /// The linear form of F at wave number `k` and decay `q`.
-    fn row(&self, k: f64, q: f64, values: &mut NetValues, [real, imaginary]: [&mut [f64]; 2]) {
+    fn row(&self, k: f64, q: f64, (mesh, values): (&mut Mesh, &mut NetValues), [real, imaginary]: [&mut [f64]; 2]) {
         let rings = match &self.rows {
             Rows::Net(net) => return net.row(k, q, values, [real, imaginary]),
             Rows::Levels(rings) => rings,
         };
         let columns = self.shape[1];
+        mesh.follow(k * self.half_span, &self.along);
         for level in rings.at(q) {
             let weight = level.weight * (-q * level.depth).exp();
-            level.along.wave(k, level.fore, values);
+            mesh.wave(k, &level.lengths, values);
             for (list, along) in [(&mut *real, &values.real), (&mut *imaginary, &values.imaginary)] {
                 for (entries, g) in list.chunks_exact_mut(columns).zip(along) {
                     let entries = entries[level.first..].iter_mut();
@@ -105,20 +117,19 @@ impl WaveForms {
     #[must_use]
     pub fn at(&self, speed: f64, water: &Water, free: &[usize]) -> WaveForm {
         let count = self.breadths.len();
-        let mut form = DMatrix::zeros(free.len(), free.len());
         let mut gradient = vec![0.0; free.len()];
         if speed <= 0.0 {
-            return WaveForm { resistance: 0.0, gradient, form };
+            return WaveForm { resistance: 0.0, gradient, roots: Vec::new() };
         }
         let nu = water.gravity / (speed * speed);
-        let mut values = NetValues::default();
+        let (mut mesh, mut values) = (Mesh { count: 0, nodes: Vec::new() }, NetValues::default());
         let nodes = RefCell::new(Nodes::default());
         integral(
             nu * self.length,
             TOLERANCES[1],
             |l, weights| {
                 let (mut real, mut imaginary) = (vec![0.0; count], vec![0.0; count]);
-                self.row(nu * l, nu * l * l, &mut values, [&mut real, &mut imaginary]);
+                self.row(nu * l, nu * l * l, (&mut mesh, &mut values), [&mut real, &mut imaginary]);
                 let f = [&real, &imaginary].map(|row| row.iter().zip(&self.breadths).map(|(a, y)| a * y).sum::<f64>());
                 let chosen = [real, imaginary].map(|row| free.iter().map(|&k| row[k]).collect());
                 nodes.borrow_mut().add(weights, f, chosen);
@@ -128,26 +139,17 @@ impl WaveForms {
         );
         let factor = factor(speed, water);
         let mut resistance = 0.0;
-        let mut batch = Vec::with_capacity(BATCH * free.len());
-        let mut multiply = |batch: &mut Vec<f64>| {
-            // One linear form a column.
-            let forms = DMatrix::from_column_slice(free.len(), batch.len() / free.len().max(1), batch);
-            form.gemm(1.0, &forms, &forms.transpose(), 1.0);
-            batch.clear();
-        };
+        let mut forms = Vec::new();
         for node in nodes.into_inner().weighted() {
-            for (value, row) in node.values.iter().zip(&node.rows) {
-                resistance += factor * node.weight * value * value;
-                gradient.iter_mut().zip(row).for_each(|(g, a)| *g += 2.0 * factor * node.weight * value * a);
-                let size = (factor * node.weight).sqrt();
-                batch.extend(row.iter().map(|a| size * a));
-            }
-            if batch.len() >= BATCH * free.len() {
-                multiply(&mut batch);
+            let weight = factor * node.weight;
+            for (value, mut row) in node.values.into_iter().zip(node.rows) {
+                resistance += weight * value * value;
+                gradient.iter_mut().zip(&row).for_each(|(g, a)| *g += 2.0 * weight * value * a);
+                row.iter_mut().for_each(|a| *a *= weight.sqrt());
+                forms.push(row);
             }
         }
-        multiply(&mut batch);
-        WaveForm { resistance, gradient, form }
+        WaveForm { resistance, gradient, roots: roots(&forms) }
     }
 }
 
@@ -161,12 +163,69 @@ fn level(hull: &Hull, draught: f64, depth: f64, weight: f64) -> Option<Level> {
     let [rows, columns] = surface.shape();
     let of = |i: usize| {
         let column = |(n, weight): (usize, &f64)| surface.points()[i * columns + first + n][0] * weight;
-        [heights[..=knots.degree()].iter().enumerate().map(column).sum::<f64>()]
+        heights[..=knots.degree()].iter().enumerate().map(column).sum::<f64>()
     };
-    let lengths: Vec<[f64; 1]> = (0..rows).map(of).collect();
-    let fore = lengths[rows - 1][0];
-    let along = Axis::new(&BsplineCurve::new(surface.u().clone(), lengths).ok()?, true, f64::INFINITY);
-    Some(Level { depth, weight, first, heights, along, fore })
+    Some(Level { depth, weight, first, heights, lengths: (0..rows).map(of).collect() })
+}
+
+/// Half of the longest span of u on any waterline \[m\], at most: x is a mean of the lines of its control values.
+fn half_span(hull: &Hull) -> f64 {
+    let surface = hull.surface();
+    let (knots, [rows, columns]) = (surface.u(), surface.shape());
+    let x = |j: usize, u: f64| {
+        let span = knots.find_span(u);
+        let first = span - knots.degree();
+        let basis = knots.basis(span, u);
+        (first..rows.min(span + 1)).zip(&basis).map(|(i, b)| surface.point(i, j)[0] * b).sum::<f64>()
+    };
+    let of = |span: usize| {
+        let ends = [span, span + 1].map(|k| knots.knots()[k]);
+        (0..columns).map(|j| x(j, ends[1]) - x(j, ends[0])).fold(0.0, f64::max)
+    };
+    0.5 * knots.spans().into_iter().map(of).fold(0.0, f64::max)
+}
+
+impl Mesh {
+    /// Nodes for phases of `theta` over half a span: the rule of n nodes leaves Bessel functions of the order 2 n - degree, which are
+    /// below 1e-10 beyond theta + 9 theta^(1/3).
+    fn follow(&mut self, theta: f64, knots: &KnotVector) {
+        let order = theta + 9.0 * theta.cbrt() + 1.0 + knots.degree() as f64;
+        let least = (0.5 * order).ceil() as usize;
+        if least <= self.count && 2 * least > self.count {
+            return;
+        }
+        self.count = least + least / 4 + 2;
+        self.nodes.clear();
+        for span in knots.spans() {
+            let [from, to] = [knots.knots()[span], knots.knots()[span + 1]];
+            for (u, weight) in gauss_legendre(self.count).on(from, to) {
+                let [basis, slopes] = knots.basis_derivatives::<2>(span, u);
+                self.nodes.push((span - knots.degree(), [basis, slopes.map(|slope| weight * slope)]));
+            }
+        }
+    }
+
+    /// int B_i'(u) e^{ikx(u)} du for the x of these control values; a flat bow falls to the centreplane at the last.
+    fn wave(&self, k: f64, lengths: &[f64], values: &mut NetValues) {
+        for list in [&mut values.real, &mut values.imaginary] {
+            list.clear();
+            list.resize(lengths.len(), 0.0);
+        }
+        for (first, [basis, slopes]) in &self.nodes {
+            let x: f64 = lengths[*first..].iter().zip(basis).map(|(x, b)| x * b).sum();
+            let (sine, cosine) = (k * x).sin_cos();
+            let targets = values.real[*first..].iter_mut().zip(&mut values.imaginary[*first..]);
+            for ((real, imaginary), slope) in targets.zip(slopes) {
+                *real += cosine * slope;
+                *imaginary += sine * slope;
+            }
+        }
+        if let Some(&fore) = lengths.last() {
+            let (sine, cosine) = (k * fore).sin_cos();
+            values.real[lengths.len() - 1] -= cosine;
+            values.imaginary[lengths.len() - 1] -= sine;
+        }
+    }
 }
 
 /// A direction of the waves: its weight, the parts of F there and the linear forms that they are of.

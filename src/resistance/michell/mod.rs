@@ -13,6 +13,7 @@ mod form;
 mod integral;
 mod net;
 mod panel;
+pub(super) mod roots;
 mod waterlines;
 
 pub use form::{WaveForm, WaveForms};
