@@ -26,6 +26,9 @@ pub(super) struct Arguments {
     /// Design draught of the parent [default: its own]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = DIMENSIONS)]
     parent_draught: Option<String>,
+    /// Bilge radius r, instead of --cm: C_M = 1 - (2 - pi/2) r^2/(B T), of level bottom and plumb sides
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = TARGETS)]
+    bilge_radius: Option<String>,
     /// Areas of sections below the design draught, both sides: a CSV of x and area
     #[arg(long, value_name = "FILE", help_heading = TARGETS)]
     section_areas: Option<String>,
@@ -65,7 +68,7 @@ centreplane and flat of side stay. lackenby and one-minus-prismatic: the classic
 dimensions alone.
 --wave-resistance adds the mean of R_W over that of the parent to the bending, of thin ships (Michell), as one convex program.
 A job file has the same in [derive]: parent, method, Lpp, B, T, D, displacement, Cb, Cp, Cm, Cwp, LCB, LCF, KB, KM, GM, KG, \
-wetted_surface, entrance, run, section_areas, parallel_body, wave_resistance, wave_weight, within, free. Options override it.
+bilge_radius, wetted_surface, entrance, run, section_areas, parallel_body, wave_resistance, wave_weight, within, free. Options override it.
 Files: those of generate, derive.json, compare.md, compare.csv, compare.json and the figures that compare parent and daughter. Exit code 4 \
 when no daughter meets the targets; the message states what is within reach.";
 
@@ -74,12 +77,16 @@ impl Arguments {
         let own = [
             ("--method", "method", self.method.as_ref()),
             ("--parent-draught", "parent_draught", self.parent_draught.as_ref()),
+            ("--bilge-radius", "bilge_radius", self.bilge_radius.as_ref()),
             ("--section-areas", "section_areas", self.section_areas.as_ref()),
             ("--parallel-body", "parallel_body", self.parallel_body.as_ref()),
             ("--wave-resistance", "wave_resistance", self.wave_resistance.as_ref()),
             ("--wave-weight", "wave_weight", self.wave_weight.as_ref()),
             ("--within", "within", self.within.as_ref()),
         ];
+        if self.bilge_radius.is_some() && self.targets.states_midship() {
+            return Err(Failure::Usage("--bilge-radius and --cm are one target: leave one of them out".to_owned()));
+        }
         let free = self.free.iter().map(|name| ("--free", "free", Some(name)));
         self.targets.wanted(&own.into_iter().chain(free).collect::<Vec<_>>())
     }

@@ -68,6 +68,11 @@ pub(super) struct TargetFlags {
 }
 
 impl TargetFlags {
+    /// Whether C_M is stated.
+    pub(super) fn states_midship(&self) -> bool {
+        self.cm.is_some()
+    }
+
     /// What the options state, with others as (option, key, value).
     ///
     /// # Errors

@@ -41,6 +41,11 @@ pub const DERIVE_KEYS: &[Key] = &[
     of("Cb", Kind::Number, "Block coefficient, instead of the displacement. Default: of the parent."),
     of("Cp", Kind::Number, "Prismatic coefficient."),
     of("Cm", Kind::Number, "Midship section coefficient. Default: of the parent."),
+    of(
+        "bilge_radius",
+        Kind::Length,
+        "Bilge radius r instead of Cm: that of a midship section with level bottom and plumb sides, C_M = 1 - (2 - pi/2) r^2/(B T).",
+    ),
     of("Cwp", Kind::Number, "Waterplane coefficient. Default: free."),
     of("LCB", Kind::CentreOfBuoyancy, "Longitudinal centre of buoyancy. Default: of the parent, in parts of Lpp."),
     of("LCF", Kind::CentreOfBuoyancy, "Longitudinal centre of flotation. Default: free."),
@@ -93,6 +98,8 @@ pub struct DeriveFile {
     pub volume: Option<f64>,
     /// C_B, C_P, C_M and C_WP \[-\].
     pub coefficients: [Option<f64>; 4],
+    /// Bilge radius \[m\], instead of C_M.
+    pub bilge_radius: Option<f64>,
     /// LCB and LCF: x = share L_PP + shift \[m\].
     pub centres: [Option<[f64; 2]>; 2],
     /// KB and KM \[m\].
@@ -134,6 +141,10 @@ impl DeriveFile {
         let own_height = self.heights[1].is_some() || self.stability[0].is_some();
         let of_height = if own_height { &self } else { &other };
         let (height, metacentric) = (of_height.heights[1], of_height.stability[0]);
+        // C_M and the bilge radius are one target.
+        let own_midship = self.coefficients[2].is_some() || self.bilge_radius.is_some();
+        let of_midship = if own_midship { &self } else { &other };
+        let (midship, bilge_radius) = (of_midship.coefficients[2], of_midship.bilge_radius);
         let own_areas = self.area_file.is_some() || !self.section_areas.is_empty();
         let (section_areas, area_file) =
             if own_areas { (self.section_areas, self.area_file) } else { (other.section_areas, other.area_file) };
@@ -145,7 +156,8 @@ impl DeriveFile {
             dimensions: [0, 1, 2, 3].map(|k| self.dimensions[k].or(other.dimensions[k])),
             mass,
             volume,
-            coefficients: [block, each(1), each(2), each(3)],
+            coefficients: [block, each(1), midship, each(3)],
+            bilge_radius,
             centres: [0, 1].map(|k| self.centres[k].or(other.centres[k])),
             heights: [self.heights[0].or(other.heights[0]), height],
             stability: [metacentric, self.stability[1].or(other.stability[1])],
@@ -278,6 +290,17 @@ fn section_areas(document: &mut Document<'_>) -> (Vec<[f64; 2]>, Option<String>)
     (Vec::new(), None)
 }
 
+/// The bilge radius, which stands in the place of C_M.
+fn bilge_radius(document: &mut Document<'_>) -> Option<f64> {
+    let found = positive(document, "derive.bilge_radius", "length");
+    if let (Some(_), Some(entry)) = (found, document.entry("derive.Cm")) {
+        let span = entry.key_span.clone();
+        let message = "derive.bilge_radius and derive.Cm are one target".to_owned();
+        document.problem("E126", "derive.bilge_radius", &span, message, "Leave one of them out.".to_owned());
+    }
+    found
+}
+
 /// GM and KG, which state KM together.
 fn stability(document: &mut Document<'_>) -> [Option<f64>; 2] {
     let found = ["derive.GM", "derive.KG"].map(|path| positive(document, path, "length"));
@@ -338,6 +361,7 @@ fn interpret(document: &mut Document<'_>) -> DeriveFile {
         mass,
         volume,
         coefficients: ["derive.Cb", "derive.Cp", "derive.Cm", "derive.Cwp"].map(|path| coefficient(document, path)),
+        bilge_radius: bilge_radius(document),
         centres: ["derive.LCB", "derive.LCF"].map(|path| centre(document, path)),
         heights: ["derive.KB", "derive.KM"].map(|path| positive(document, path, "length")),
         stability: stability(document),

@@ -1,5 +1,7 @@
 //! What is asked of a daughter, and which targets follow from it.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
 use crate::hull::Hull;
@@ -91,6 +93,10 @@ pub struct Request {
     /// LCB and LCF as x = share L_PP + shift \[m\], in place of positions.
     #[doc(hidden)]
     pub centres: [Option<[f64; 2]>; 2],
+    /// Bilge radius r \[m\], in place of C_M: that of a midship section with level bottom and plumb sides, C_M = 1 - (2 - pi/2)
+    /// r^2 / (B T).
+    #[doc(hidden)]
+    pub bilge_radius: Option<f64>,
     /// The other targets.
     pub targets: Vec<(Quantity, f64)>,
     /// Quantities that are not kept although nobody names them.
@@ -140,6 +146,10 @@ impl Request {
                 part.or(self.centres[0]).map(|[share, shift]| share * reference.between + shift)
             }
             Quantity::Lcf => self.centres[1].map(|[share, shift]| share * reference.between + shift),
+            Quantity::MidshipCoefficient => self.bilge_radius.map(|radius| {
+                let corners = (2.0 - FRAC_PI_2) * radius * radius;
+                1.0 - corners / (reference.breadth * reference.draught)
+            }),
             _ => None,
         };
         own.or(other)
@@ -171,6 +181,7 @@ impl Request {
             .collect();
         refused.extend(list.iter().filter_map(|target| undefined(target, scaled, reference)));
         refused.extend(self.of_method(&list));
+        refused.extend(self.bilge_radius.and_then(|radius| no_bilge(radius, reference)));
         if refused.is_empty() { Ok(list) } else { Err(refused) }
     }
 
@@ -187,6 +198,7 @@ impl Request {
             Quantity::Volume => self.block_coefficient.is_some(),
             Quantity::Lcb => self.lcb_percent.is_some() || self.centres[0].is_some(),
             Quantity::Lcf => self.centres[1].is_some(),
+            Quantity::MidshipCoefficient => self.bilge_radius.is_some(),
             _ => false,
         };
         other || self.targets.iter().any(|(named, _)| *named == quantity)
@@ -265,6 +277,15 @@ pub(super) fn undefined(target: &Target, scaled: &Hull, reference: &Reference) -
         }
         _ => None,
     }
+}
+
+/// A bilge that does not fit into the midship section.
+fn no_bilge(radius: f64, reference: &Reference) -> Option<Refusal> {
+    let most = reference.draught.min(0.5 * reference.breadth);
+    (radius > most).then(|| {
+        let message = format!("bilge radius {radius:.3} m is more than the lesser of T and B/2, {most:.3} m");
+        Refusal::new("E421", vec!["bilge-radius"], message, format!("Give at most {most:.3} m"))
+    })
 }
 
 /// What no ship has.

@@ -153,6 +153,7 @@ impl DeriveJob {
             block_coefficient: wanted.coefficients[0],
             lcb_percent: None,
             centres: wanted.centres,
+            bilge_radius: wanted.bilge_radius,
             targets: stated_targets(wanted, conventions.density),
             free,
             method: self.method(),

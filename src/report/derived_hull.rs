@@ -22,12 +22,13 @@ use crate::plot::{Figure, FigureInputs};
 use crate::units::{Notation, decimal};
 
 /// Where the words of targets stand: options, and keys of the job file.
-const PLACES: [(&str, &str, &str); 26] = [
+const PLACES: [(&str, &str, &str); 27] = [
     ("wave-resistance", "--wave-resistance", "wave_resistance"),
     ("cb", "--cb", "Cb"),
     ("displacement", "--displacement", "displacement"),
     ("lcb", "--lcb", "LCB"),
     ("cm", "--cm", "Cm"),
+    ("bilge-radius", "--bilge-radius", "bilge_radius"),
     ("cp", "--cp", "Cp"),
     ("cwp", "--cwp", "Cwp"),
     ("lcf", "--lcf", "LCF"),
@@ -59,6 +60,7 @@ pub(super) fn refused(refusals: Vec<Refusal>, wanted: &DeriveFile, job_file: Opt
         let word = match word {
             _ if stated_block => "cb",
             "km" if wanted.stability[0].is_some() => "gm",
+            "cm" if wanted.bilge_radius.is_some() => "bilge-radius",
             word => word,
         };
         PLACES.iter().find(|place| place.0 == word).map_or((COMMAND_LINE, "parent"), |place| (place.1, place.2))
