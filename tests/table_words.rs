@@ -300,7 +300,8 @@ fn distances_of_both_signs_count_from_where_their_hull_shows() {
     same(&numbers, "[table]\nunits = \"m\"\nLpp = 100\n");
     // A key, and a word, stand over what the numbers show.
     let negative = stations("x [m]", |x| (-x).to_string());
-    assert!(same(&negative, "[table]\nunits = \"m\"\nstations = \"from AP\"\n").is_empty());
+    let keyed = same(&negative, "[table]\nunits = \"m\"\nstations = \"from AP\"\n");
+    assert!(!keyed.iter().any(|warning| warning.starts_with("W320")), "{keyed:?}");
 }
 
 #[test]
@@ -338,6 +339,7 @@ fn breadths_without_a_word_are_what_the_ship_allows() {
         let warnings = same(text, conventions);
         assert!(warnings.iter().any(|w| w.starts_with("W320") && w.contains(as_what)), "{as_what}: {warnings:?}");
     };
+    let said = |text: &str, conventions: &str| same(text, conventions).join("\n");
     let units = "[table]\nunits = \"m\"\n";
     taken(&table("\"B(x,z)\"", 2.0), units, "taken as full breadths, because L/B is 6.2, and 3.1 otherwise");
     taken(
@@ -351,7 +353,7 @@ fn breadths_without_a_word_are_what_the_ship_allows() {
         "taken as half-breadths, by the breadth",
     );
     taken(&table("\"2y(x,z)\"", 2.0), units, "full breadths, by '2y(x,z)'");
-    assert!(same(&table("\"y(x,z)\"", 1.0), units).is_empty());
+    assert!(!said(&table("\"y(x,z)\"", 1.0), units).contains("breadth"));
     taken(
         &format!("Full breadths\n{}", points("x [m],waterline [m],y [m]", |x| x.to_string(), 2.0)),
         "",
@@ -359,7 +361,7 @@ fn breadths_without_a_word_are_what_the_ship_allows() {
     );
     // The breadth of the ship is no word for its offsets.
     for title in ["Lpp 100 m; full breadth moulded 16 m", "Lpp 100 m, full breadth moulded 16 m", "Full beam 16 m"] {
-        assert!(same(&format!("{title}\n{}", table("x [m]", 1.0)), "").is_empty(), "{title}");
+        assert!(!said(&format!("{title}\n{}", table("x [m]", 1.0)), "").contains("full"), "{title}");
     }
 }
 

@@ -15,7 +15,7 @@
 //! station_spacing = 2.1       # between station numbers
 //! spaces = 20                 # station numbers in Lpp
 //! waterline_spacing = 0.6     # between the numbers of WL 1, WL 2, ...
-//! buttock_spacing = 0.5       # between the numbers of Butt 1, Butt 2, ... of a table of lines
+//! buttock_spacing = 0.5       # between the numbers of Butt 1, Butt 2, ...
 //! Lpp = 62.0                  # B, T, D likewise
 //! separator = ";"             # , ; | tab blank
 //! decimal = ","               # , .

@@ -138,9 +138,10 @@ pub(super) fn hidden(bytes: &[u8]) -> BTreeMap<String, Hidden> {
     found.collect()
 }
 
-/// The tags of a text of XML, without their brackets.
+/// The opening tags of a text of XML, without their brackets.
 fn tags(text: &str) -> impl Iterator<Item = &str> {
-    text.split('<').skip(1).map(|part| part.split('>').next().unwrap_or(part))
+    let tags = text.split('<').skip(1).filter(|part| !part.starts_with('/'));
+    tags.map(|part| part.split('>').next().unwrap_or(part))
 }
 
 /// The name of a tag without its space.
