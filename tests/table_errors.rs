@@ -214,9 +214,12 @@ fn e313_nothing_in_it() {
 
 #[test]
 fn w311_stations_on_both_sides_of_the_origin() {
-    let text = "x [m],0.5,1\n-10,0,0\n-4,1,2\n4,1,2\n10,0,0\n";
+    let text = "x_from_AP [m],0.5,1\n-10,0,0\n-4,1,2\n4,1,2\n10,0,0\n";
     among(&notes(text, ""), &["W311", "from x = -10.000 to 10.000 m", "x_from_midship"]);
-    for quiet in [GOOD, "x_from_midship [m],0.5,1\n-10,0,0\n-4,1,2\n4,1,2\n10,0,0\n"] {
+    // Without a word they count from midship, with a warning.
+    let open = text.replace("_from_AP", "");
+    among(&notes(&open, ""), &["W320", "stations from -10 to 10", "taken from midship", "Give stations"]);
+    for quiet in [GOOD, open.as_str(), "x_from_midship [m],0.5,1\n-10,0,0\n-4,1,2\n4,1,2\n10,0,0\n"] {
         assert!(!notes(quiet, "").iter().any(|note| note.contains("W311")), "{:?}", notes(quiet, ""));
     }
 }
@@ -352,4 +355,43 @@ fn an_empty_table_is_an_empty_table_and_notes_are_no_errors() {
     let json: serde_json::Value = serde_json::from_str(&stdout(&done)).unwrap();
     let codes: Vec<&str> = json["error"].as_array().unwrap().iter().map(|e| e["code"].as_str().unwrap()).collect();
     assert!(codes.contains(&"E301") && !codes.iter().any(|code| code.starts_with('N')), "{codes:?}");
+}
+
+#[test]
+fn e305_names_the_unit_that_the_numbers_have() {
+    let table = |corner: &str, [x, y, z]: [f64; 3]| {
+        let heads: Vec<String> = [1.0, 3.0, 6.0].iter().map(|height| (z * height).to_string()).collect();
+        let rows = [(0.0, 0.0), (50.0, 8.0), (100.0, 0.0)].map(|(at, half)| {
+            let cells: Vec<String> = [0.5, 0.8, 1.0].iter().map(|part| format!("{:.0}", y * half * part)).collect();
+            format!("{},{}\n", x * at, cells.join(","))
+        });
+        format!("{corner},{}\n{}", heads.join(","), rows.concat())
+    };
+    for (scales, kind, key) in [
+        ([1.0, 100.0, 1.0], "half-breadth is 800, which looks like centimetres", "units = \"cm\""),
+        ([1.0, 1000.0, 1.0], "half-breadth is 8000, which looks like millimetres", "units = \"mm\""),
+        ([1.0, 1.0, 1000.0], "height is 6000, which looks like millimetres", "z_units = \"mm\""),
+        ([100.0, 1.0, 1.0], "distance is 10000, which looks like centimetres", "x_units = \"cm\""),
+    ] {
+        let text = table("x \\ z [m]", scales);
+        among(&problems(&text), &["E305", kind, &format!("Declare {key}")]);
+        let obeyed = read_table_with("t.csv", text.as_bytes(), [("t.toml", format!("[table]\n{key}\n").as_str())]);
+        let table = obeyed.unwrap_or_else(|list| panic!("{}", list[0])).table;
+        assert!((table.stations[1].half_breadth(2).unwrap() - 8.0).abs() < 1e-9, "{key}");
+        assert!(
+            (table.stations[2].station.x - 100.0).abs() < 1e-9 && (table.waterlines[2] - 6.0).abs() < 1e-9,
+            "{key}"
+        );
+    }
+    // Metres among the positions of centimetres are metres.
+    let text = table("x [m]", [1.0, 100.0, 1.0]);
+    let read = read_table_with("t.csv", text.as_bytes(), [("t.toml", "[table]\nunits = \"cm\"\n")]).unwrap();
+    assert!((read.table.waterlines[2] - 6.0).abs() < 1e-9, "{:?}", read.table.waterlines);
+}
+
+#[test]
+fn lengths_in_messages_have_no_more_digits_than_they_need() {
+    let found = problems("x [ft],1,2,3,3\n0,0,0,0,0\n10,1,2,2,2\n20,0,0,0,0\n");
+    among(&found, &["E306", "a waterline at 0.9144 m stands"]);
+    assert!(!found.iter().any(|problem| problem.contains("0.91440")), "{found:?}");
 }

@@ -2,9 +2,10 @@
 
 use std::fs;
 
-use loftsman::internals::exchange::{Severity, TableWriting, read_table, write_table};
+use loftsman::internals::exchange::{Severity, TableWriting, read_table, read_table_with, write_table};
 use loftsman::internals::hull::{Cell, TableLayout};
 use loftsman::internals::units::Notation;
+use rust_xlsxwriter::{Format, Workbook};
 
 use crate::support::{carried, convert, folder, program, read_text, stderr, stdout};
 
@@ -235,4 +236,95 @@ fn workbooks_are_written_back() {
     let mut form = first.form.clone();
     form.sheet = Some("a/b".to_owned());
     assert!(loftsman::internals::exchange::workbook(&written.text, &form).unwrap_err().contains("a/b"));
+}
+
+/// A workbook of a text of numbers and words, with a format for the cells from a row and a column on.
+fn formatted(text: &str, formats: &[(u32, u16, &str)], hidden: Option<(u32, u16)>) -> Vec<u8> {
+    let mut book = Workbook::new();
+    let sheet = book.add_worksheet();
+    for (row, line) in (0..).zip(text.lines()) {
+        for (column, field) in (0..).zip(line.split(',')) {
+            let code = formats.iter().find(|(r, c, _)| row >= *r && column >= *c).map_or("General", |(.., code)| *code);
+            match field.parse::<f64>() {
+                Ok(number) => sheet.write_number_with_format(row, column, number, &Format::new().set_num_format(code)),
+                Err(_) => sheet.write_string(row, column, field),
+            }
+            .unwrap();
+        }
+    }
+    if let Some((row, column)) = hidden {
+        sheet.set_row_hidden(row).unwrap().set_column_hidden(column).unwrap();
+    }
+    book.save_to_buffer().unwrap()
+}
+
+#[test]
+fn number_formats_state_the_units_of_cells() {
+    let feet = "x [m],1,2,3\n0,0,0,0\n10,10,20,30\n20,0,0,0\n";
+    let read =
+        |formats: &[(u32, u16, &str)], text: &str| read_table("t.xlsx", &formatted(text, formats, None)).unwrap();
+    for (code, unit) in [("0.00\" ft\"", 0.3048), ("0\\ \\m\\m", 1e-3), ("0.000\" m\"", 1.0), ("0.0\"'\"", 0.3048)] {
+        let table = read(&[(1, 1, code)], feet).table;
+        assert!((table.stations[1].half_breadth(2).unwrap() - 30.0 * unit).abs() < 1e-9, "{code}");
+        assert!(
+            (table.stations[2].station.x - 20.0).abs() < 1e-9 && (table.waterlines[2] - 3.0).abs() < 1e-9,
+            "{code}"
+        );
+    }
+    // A format of all cells leaves nothing to assume; words for lines are read as well.
+    let all =
+        read(&[(1, 1, "0.00\" m\""), (1, 0, "0.00\" ft\""), (0, 1, "\"WL \"0.00\" m\"")], &feet.replace("x [m]", "x"));
+    assert!(!all.notes.iter().any(|note| note.message.contains("no unit is declared")), "{:?}", all.notes);
+    assert!((all.table.stations[2].station.x - 6.096).abs() < 1e-9 && (all.table.waterlines[0] - 1.0).abs() < 1e-9);
+    let frames = "Frame spacing 0.5 m,,,\n,1,2,3\n0,0,0,0\n10,1,2,3\n20,0,0,0\n";
+    let frames = read(&[(2, 1, "General"), (2, 0, "\"Fr \"0")], frames).table;
+    assert!((frames.stations[2].station.x - 10.0).abs() < 1e-9, "{}", frames.stations[2].station.x);
+}
+
+#[test]
+fn hidden_rows_and_columns_are_left_out_with_a_warning() {
+    let text = "x [m],1,1.5,2\n0,0,99,0\n5,99,99,99\n10,1,99,2\n20,0,99,0\n";
+    let read = read_table("t.xlsx", &formatted(text, &[], Some((2, 2)))).unwrap();
+    assert_eq!((read.table.stations.len(), read.table.waterlines.as_slice()), (3, [1.0, 2.0].as_slice()));
+    assert_eq!(read.table.stations[1].half_breadth(1), Some(2.0));
+    let said: Vec<String> = read.notes.iter().filter(|note| note.code == "W332").map(ToString::to_string).collect();
+    for part in [
+        "1 row with cells that the sheet hides, 3. Show them",
+        "1 column with cells that the sheet hides, 3. Show them",
+    ] {
+        assert!(said.iter().any(|note| note.contains(part)), "{said:?}");
+    }
+}
+
+/// The conventions beside a table go with its copy: all where it is written alike, the dimensions where it is not.
+#[test]
+fn conventions_go_with_a_converted_table() {
+    let folder = folder("convert_conventions");
+    let path = |name: &str| folder.join(name).display().to_string();
+    fs::write(path("t.csv"), "station,1,2,3\n0,0,0,0\n5,1,2,3\n10,0,0,0\n").unwrap();
+    let conventions = "[table]\nname = \"Anna\"\nLpp = 50\nunits = \"m\"\nstations = \"numbers from FP\"\n";
+    fs::write(path("t.toml"), conventions).unwrap();
+    let read = |name: &str| {
+        let (text, beside) = (read_text(path(name)), read_text(path(&name.replace(".csv", ".toml"))));
+        let table = read_table_with("t.csv", text.as_bytes(), [("t.toml", beside.as_str())]).unwrap().table;
+        (table.stations.iter().map(|s| s.station.x).collect::<Vec<_>>(), table.stated, beside)
+    };
+    let plain = read("t.csv");
+    assert_eq!(plain.0, [0.0, 25.0, 50.0]);
+    for (name, options) in
+        [("same.csv", [].as_slice()), ("mm.csv", &["--notation", "mm"]), ("tidy.csv", &["--layout", "tidy"])]
+    {
+        let (from, to) = (path("t.csv"), path(name));
+        let arguments: Vec<&str> = [from.as_str(), to.as_str()].into_iter().chain(options.iter().copied()).collect();
+        assert_eq!(convert(&arguments).status.code(), Some(0), "{name}");
+        let copy = read(name);
+        assert_eq!((&copy.0, copy.1), (&plain.0, plain.1), "{name}");
+        assert_eq!(copy.2.contains("numbers from FP"), name == "same.csv", "{name}");
+    }
+    let said = stderr(&convert(&[&path("t.csv")]));
+    assert!(said.contains("not written: the conventions of the table"), "{said}");
+    // A title that states an origin does not go over lengths from AP.
+    fs::write(path("u.csv"), "Stations from FP\nx [m],1,2\n0,0,0\n10,1,2\n50,2,2\n").unwrap();
+    assert_eq!(convert(&[&path("u.csv"), &path("v.csv"), "--notation", "mm", "-q"]).status.code(), Some(0));
+    assert!(!read_text(path("v.csv")).contains("from FP"), "{}", read_text(path("v.csv")));
 }

@@ -226,3 +226,156 @@ fn titles_state_main_dimensions_and_spacings() {
     same(&stations("Station", ends), "[table]\nstation_spacing = 5\n");
     same(&matrix("x [m]", &distances(), &columns(|z| format!("{z}m above base")), metres), "");
 }
+
+/// The plain hull as rows of points below a header, with stations by `head`.
+fn points(header: &str, head: impl Fn(f64) -> String, share: f64) -> String {
+    let mut text = format!("{header}\n");
+    for x in (0..21).map(|k| 5.0 * f64::from(k)) {
+        for z in HEIGHTS {
+            writeln!(text, "{},{z},{}", head(x), metres(share * half_breadth(x, z))).unwrap();
+        }
+    }
+    text
+}
+
+#[test]
+fn titles_state_the_origin_of_every_layout() {
+    let length = "[table]\nunits = \"m\"\nLpp = 100\n";
+    let from_fp = |x: f64| (100.0 - x).to_string();
+    let from_midship = |x: f64| (x - 50.0).to_string();
+    for title in [
+        "Stations measured from the fore perpendicular in metres",
+        "\"x from FP, positive aft\"",
+        "Distances aft of F.P.",
+        "Sections measured from bow",
+        "M.V. Anna. Longitudinal positions are in metres from the fore perpendicular",
+        "Origin of x: F.P.",
+        "x = 0 at FP",
+    ] {
+        for table in [
+            stations("x [m]", from_fp),
+            stations("Station", |x| format!("{} m", 100.0 - x)),
+            points("x [m],waterline [m],y [m]", from_fp, 1.0),
+            points("station,z,y", from_fp, 1.0),
+        ] {
+            let warnings = same(&format!("{title}\n{table}"), length);
+            assert!(warnings.iter().any(|w| w.starts_with("W320") && w.contains("from FP")), "{warnings:?}");
+        }
+    }
+    // A comma without quotes parts a title above columns of points, and above one offset a row.
+    same(&format!("x from FP, positive aft\n{}", points("x,z,y", from_fp, 1.0)), length);
+    same(&format!("x from Lpp/2\n{}", stations("x [m]", from_midship)), length);
+    let tidy = points("x,z,y", from_fp, 1.0).lines().skip(1).fold("x,curve,z,y\n".to_owned(), |text, row| {
+        let (x, rest) = row.split_once(',').unwrap();
+        text + &format!("{x},WL,{rest}\n")
+    });
+    same(&format!("Stations from FP\n{tidy}"), length);
+    for title in ["Stations from AP to FP", "Table of offsets, distances forward of A.P.", "LCB position from midship"]
+    {
+        same(&format!("{title}\n{}", stations("x [m]", |x| x.to_string())), length);
+    }
+}
+
+#[test]
+fn distances_of_both_signs_count_from_where_their_hull_shows() {
+    let units = "[table]\nunits = \"m\"\n";
+    let ends = |stern: f64, stem: f64| {
+        let row = |name: &str, x: f64| format!("{name},{}\n", vec![x.to_string(); 7].join(","));
+        row("stern", stern) + &row("stem", stem)
+    };
+    for (head, ends, from) in [
+        ((|x| x - 100.0) as fn(f64) -> f64, ends(-100.0, 0.0), "from FP, positive forward, by the profiles"),
+        (|x| -x, ends(0.0, -100.0), "from AP, positive aft, by the profiles"),
+        (|x| 50.0 - x, ends(50.0, -50.0), "from midship, positive aft, by the profiles"),
+        (|x| x - 100.0, String::new(), "from FP, positive forward, and nothing tells which end is the bow"),
+        (|x| x - 50.0, String::new(), "from midship, positive forward, and nothing tells which end is the bow"),
+    ] {
+        let table = stations("x [m]", |x| head(x).to_string());
+        let warnings = same(&format!("{table}{ends}"), units);
+        assert!(warnings.iter().any(|w| w.starts_with("W320") && w.contains(from)), "{from}: {warnings:?}");
+    }
+    let numbers = stations("Station", |x| (x / 5.0 - 20.0).to_string());
+    let said = messages(&numbers, "[table]\nunits = \"m\"\nLpp = 100\n");
+    assert!(said.contains("taken from FP") && said.contains("Give stations = \"from FP\""), "{said}");
+    same(&numbers, "[table]\nunits = \"m\"\nLpp = 100\n");
+    // A key, and a word, stand over what the numbers show.
+    let negative = stations("x [m]", |x| (-x).to_string());
+    let keyed = same(&negative, "[table]\nunits = \"m\"\nstations = \"from AP\"\n");
+    assert!(!keyed.iter().any(|warning| warning.starts_with("W320")), "{keyed:?}");
+}
+
+#[test]
+fn frames_are_as_far_apart_as_their_spacing() {
+    let units = "[table]\nunits = \"m\"\n";
+    let frame = |x: f64| (2.0 * x).to_string();
+    let label = |x: f64| format!("Fr {}", 2.0 * x);
+    for title in [
+        "Frame spacing 500 mm",
+        "Frame spacing = 0.5",
+        "# Frame spacing = 0.5",
+        "# frame_spacing = 0.5 m",
+        "Frames 0.5 m apart; frame 0 at AP",
+        "Frame spacing [mm],500",
+    ] {
+        for table in [stations("Frame", frame), stations("", label)] {
+            let warnings = same(&format!("{title}\n{table}"), units);
+            assert!(warnings.iter().any(|w| w.contains("says that stations are 0.5 m apart")), "{title}: {warnings:?}");
+        }
+    }
+    same(&format!("Frame spacing: 0.5 m\n{}", points("frame,z [m],y [m]", frame, 1.0)), "");
+    // Stations are no frames, and frames without a spacing are named.
+    same(
+        &format!("Frame spacing 0.5 m\n{}", stations("Station", |x| (x / 5.0).to_string())),
+        "[table]\nunits = \"m\"\nLpp = 100\n",
+    );
+    assert!(messages(&stations("Frame", frame), units).contains("taken as 1 m apart. Give Lpp, or station_spacing"));
+}
+
+#[test]
+fn breadths_without_a_word_are_what_the_ship_allows() {
+    let table =
+        |corner: &str, share: f64| matrix(corner, &distances(), &columns(|z| format!("{z} m")), |y| metres(share * y));
+    let taken = |text: &str, conventions: &str, as_what: &str| {
+        let warnings = same(text, conventions);
+        assert!(warnings.iter().any(|w| w.starts_with("W320") && w.contains(as_what)), "{as_what}: {warnings:?}");
+    };
+    let said = |text: &str, conventions: &str| same(text, conventions).join("\n");
+    let units = "[table]\nunits = \"m\"\n";
+    taken(&table("\"B(x,z)\"", 2.0), units, "taken as full breadths, because L/B is 6.2, and 3.1 otherwise");
+    taken(
+        &format!("B = 16 m\nbreadths B\n{}", table("x [m]", 2.0)),
+        "",
+        "taken as full breadths, by the breadth of 16 m",
+    );
+    taken(
+        &format!("breadths B\n{}", table("x [m]", 1.0)),
+        &format!("{units}B = 16\n"),
+        "taken as half-breadths, by the breadth",
+    );
+    taken(&table("\"2y(x,z)\"", 2.0), units, "full breadths, by '2y(x,z)'");
+    assert!(!said(&table("\"y(x,z)\"", 1.0), units).contains("breadth"));
+    taken(
+        &format!("Full breadths\n{}", points("x [m],waterline [m],y [m]", |x| x.to_string(), 2.0)),
+        "",
+        "full breadths, by",
+    );
+    // The breadth of the ship is no word for its offsets.
+    for title in ["Lpp 100 m; full breadth moulded 16 m", "Lpp 100 m, full breadth moulded 16 m", "Full beam 16 m"] {
+        assert!(!said(&format!("{title}\n{}", table("x [m]", 1.0)), "").contains("full"), "{title}");
+    }
+}
+
+#[test]
+fn labels_with_a_hash_and_titles_of_buttocks() {
+    let length = "[table]\nunits = \"m\"\nLpp = 100\n";
+    same(&stations("station", |x| format!("#{}", x / 5.0)), length);
+    // A row that is commented out stays so.
+    let table = stations("x [m]", |x| x.to_string());
+    same(&format!("{table}#105,9,9,9,9,9,9,9\n"), "");
+    same(&format!("Buttocks 2 m apart\n{table}"), "");
+    let heights = "\n\nx [m],Butt 1,Butt 2,Butt 3\n45,1,2,3\n50,1,2,3\n";
+    let read = |text: &str| read(text, "").unwrap().table;
+    assert_eq!(read(&format!("Buttocks 2 m apart\n{table}{heights}")).buttocks, [2.0, 4.0, 6.0]);
+    assert_eq!(read(&format!("# buttock_spacing = 1.5\n{table}{heights}")).buttocks, [1.5, 3.0, 4.5]);
+    assert!(messages(&format!("{table}{heights}"), "").contains("buttocks are numbered, 'Butt 1' to 'Butt 3'"));
+}

@@ -103,5 +103,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.quiet {
         converted.messages.iter().for_each(|message| stream::message(message));
     }
-    target.table(converted.written.text, &converted.form, None)
+    if output.is_none() && converted.conventions.is_some() && !arguments.quiet {
+        stream::message(
+            "not written: the conventions of the table, which OUT gets beside it in a TOML file of its name",
+        );
+    }
+    target.table(converted.written.text, &converted.form, converted.conventions)
 }

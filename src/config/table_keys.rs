@@ -36,7 +36,7 @@ pub const TABLE_KEYS: &[Key] = &[
     ),
     table("station_spacing", Kind::Length, "Distance from one number of stations to the next."),
     table("waterline_spacing", Kind::Length, "Distance from one number of waterlines to the next."),
-    table("buttock_spacing", Kind::Length, "Distance from one number of buttocks of a table of lines to the next."),
+    table("buttock_spacing", Kind::Length, "Distance from one number of buttocks to the next."),
     table("spaces", Kind::Number, "Numbers of stations in L_PP. Default: 20 or 10, where the numbers end there."),
     table("Lpp", Kind::Length, "Length between perpendiculars."),
     table("B", Kind::Length, "Moulded breadth."),

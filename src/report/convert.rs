@@ -5,7 +5,9 @@ use std::path::Path;
 use super::export::{ExportFormat, ExportSettings, export, mesh_file};
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
-use super::source::{Overrides, ending, read_bytes, read_source_with, read_table_file_with, sidecar};
+use super::source::{
+    Overrides, conventions_beside, ending, read_bytes, read_source_with, read_table_file_with, sidecar,
+};
 use crate::exchange::{
     CadUnit, Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, section_of,
     write_britfair, write_delftship, write_freeship, write_ftm, write_ghs, write_pdstrip, write_pias, write_table,
@@ -20,6 +22,9 @@ pub struct Converted {
     pub written: WrittenTable,
     /// How the table was written.
     pub form: TableForm,
+    /// The TOML file that goes beside the table: the conventions of the one that was read, or its dimensions alone where
+    /// units, layout or positions are others.
+    pub conventions: Option<String>,
     /// Messages for the user: warnings and notes of the reading, effect of rounding.
     pub messages: Vec<String>,
 }
@@ -66,7 +71,24 @@ pub fn convert_table(path: &Path, overrides: &Overrides, writing: TableWriting) 
     } else if points > 0 && !tidy && !own {
         messages.push("sections given as points are not written; a tidy table holds them (--layout tidy)".to_owned());
     }
-    Ok(Converted { written, form: table.form, messages })
+    let beside = conventions_beside(path, overrides)?;
+    let conventions = if written.is_alike { beside } else { beside.and_then(|text| for_other_form(&text, tidy)) };
+    Ok(Converted { written, form: table.form, conventions, messages })
+}
+
+/// What conventions say of the hull, and not of how a table of it is written; the profiles of stern and stem are written in the
+/// table, and a tidy one holds lines. None where nothing is left.
+fn for_other_form(text: &str, tidy: bool) -> Option<String> {
+    const OF_HULL: [&str; 5] = ["name", "lpp", "b", "t", "d"];
+    let mut all: toml::Table = text.parse().ok()?;
+    all.retain(|name, value| match value {
+        toml::Value::Table(keys) if name != "transom" => {
+            keys.retain(|key, _| OF_HULL.contains(&key.to_lowercase().as_str()));
+            !keys.is_empty()
+        }
+        _ => name != "line" || !tidy,
+    });
+    toml::to_string(&all).ok().filter(|text| !text.trim().is_empty())
 }
 
 /// Whether a file is a hull or a design by its name.

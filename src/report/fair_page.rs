@@ -3,6 +3,7 @@
 use super::fair::{FairJob, FairOutputs};
 use super::fair_held::{hydrostatics, volume_of, volumes};
 use super::fair_short::headline;
+use super::lengths;
 use super::page::{WIDTH, fixed, fixed_sign, no_draught, wrapped};
 use super::waves::waves_page;
 use crate::exchange::{reached, status_word};
@@ -10,6 +11,7 @@ use crate::fairing::outcome::{Change, Outcome};
 use crate::fairing::proposals::Proposal;
 use crate::fairing::record::accuracy;
 use crate::fairing::smoothing::end_of_search;
+use crate::fairing::surface::Origin;
 use crate::units::Notation;
 
 /// Moves and suspects that the page lists.
@@ -54,10 +56,21 @@ pub(super) fn counted(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
-/// "station 5, waterline 2.000 m".
+/// "station 5, waterline 2.000 m", in the notation of the table: "station 20 ft, waterline 6 ft (1.829 m)".
 pub(super) fn place(job: &FairJob, change: &Change) -> String {
-    let station = job.table.stations.get(change.station).map_or_else(String::new, |station| station.station.words());
-    format!("{station}, {}", change.origin.words(change.z))
+    let form = &job.table.form;
+    let station = match job.table.stations.get(change.station) {
+        None => String::new(),
+        Some(station) if form.x_notation == Notation::Metres => station.station.words(),
+        Some(_) => format!("station {}", lengths::station(&job.table, change.station)),
+    };
+    let line = match (change.origin, lengths::of_heights(form)) {
+        (Origin::HalfBreadth { .. }, notation) if notation != Notation::Metres => {
+            format!("waterline {}", lengths::place(notation, &form.waterline_heads, change.z))
+        }
+        _ => change.origin.words(change.z),
+    };
+    format!("{station}, {line}")
 }
 
 /// Parts of its tolerance from which an offset is beyond it.
@@ -116,9 +129,9 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
         };
         let read = found.map_or(String::new(), |s| format!(" for {}", s.proposed_text));
         let text = format!(
-            "  {id} {}: written {written}{metres} ({why}{read}); the fair hull has {} m",
+            "  {id} {}: written {written}{metres} ({why}{read}); the fair hull has {}",
             place(job, change),
-            fixed(change.after, 4)
+            lengths::length(job.table.form.notation, change.after, 4)
         );
         page.push_str(&format!("  {}", wrapped(&text, 5)));
     }

@@ -1,11 +1,11 @@
 //! What stands around a table of offsets says about it: its name, main dimensions, units, and full breadths.
 
-use super::header::{Corner, axis_of, counts_down, counts_from_waterline, plain_number, side_of, unit_of};
-use super::long::{HALF_OR_FULL, half_taken};
+use super::header::{Axis, Corner, axis_of, counts_down, counts_from_waterline, plain_number, side_of, unit_of};
+use super::long::from_header;
 use super::pieces::{Piece, Pieces};
-use super::problem::{FilePosition, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use super::ratio::slot;
-use super::settings::Settings;
+use super::settings::{Settings, metres};
 use crate::units::{Notation, parse_length};
 
 /// Takes over what the words around the tables say and the conventions do not.
@@ -32,9 +32,7 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
     }
     let corners = heads.into_iter().flatten();
     if let Some(text) = texts().chain(corners).find(|text| says_full(&text.text)).filter(|_| settings.full.is_none()) {
-        let message = format!("full breadths, by '{}'", text.trimmed());
-        problems.warning("W320", text.place(), message, "Give breadths = \"half\" in the conventions if they are not");
-        settings.full = Some(true);
+        take_full(text, settings, problems);
     }
     let corner = heads.and_then(|row| row.first());
     if let Some(text) = corner.filter(|text| counts_down(text.trimmed())) {
@@ -53,8 +51,99 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
     let rows = rows.filter_map(|row| row.first()).filter(|text| names_breadths(&text.text));
     let open = titles.chain(corner.filter(|text| says_breadths(&text.text, true))).chain(heads).chain(rows).next();
     if let Some(text) = open.filter(|_| settings.full.is_none() && !says_half) {
+        match pieces.tables.first().and_then(|piece| by_dimensions(piece, settings)) {
+            Some((full, why)) => {
+                let taken = if full { "full breadths" } else { "half-breadths" };
+                let message = format!(
+                    "'{}' does not say whether breadths are half or full: taken as {taken}, {why}",
+                    text.trimmed()
+                );
+                problems.warning("W320", text.place(), message, HALF_OR_FULL);
+                settings.full = Some(full);
+            }
+            None => problems.warning("W320", text.place(), half_taken(text.trimmed()), HALF_OR_FULL),
+        }
+    }
+}
+
+/// The largest number beside the breadth stated differs from it, or from its half, by less than this part.
+const SAME_BREADTH: f64 = 0.03;
+
+/// Lengths of ships in breadths.
+const SLENDER: std::ops::RangeInclusive<f64> = 3.5..=12.0;
+
+/// Whether breadths are full, by the stated breadth, or by L/B where one reading alone gives that of a ship; with the reason.
+fn by_dimensions(piece: &Piece, settings: &Settings) -> Option<(bool, String)> {
+    let corner = Corner::of(piece.rows.first()?.first()?.trimmed());
+    let cells = piece.rows.iter().skip(1).flat_map(|row| row.iter().skip(1));
+    let sizes = cells.filter_map(|field| {
+        let number =
+            plain_number(&field.text).map(|n| settings.units.or(corner.unit).unwrap_or(Notation::Metres).metres(n));
+        number.or_else(|| parse_length(field.trimmed()).ok()).filter(|n| n.is_finite())
+    });
+    let largest = sizes.fold(0.0, f64::max);
+    let near = |breadth: f64| (largest / breadth - 1.0).abs() < SAME_BREADTH;
+    if let Some(breadth) = settings.stated.breadth {
+        let full = if near(breadth) { Some(true) } else { near(0.5 * breadth).then_some(false) };
+        return full.map(|full| (full, format!("by the breadth of {} m", metres(breadth))));
+    }
+    let ends = piece.rows.iter().skip(1).filter_map(|row| plain_number(&row.first()?.text));
+    let extent = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], n| [low.min(n), high.max(n)]);
+    let unit = settings.x_units.or(corner.unit).or(settings.units).unwrap_or(Notation::Metres);
+    let is_long =
+        corner.rows.is_none_or(|axis| axis == Axis::X) && settings.stations.is_none_or(|scale| !scale.numbers);
+    let by_stations = is_long.then(|| unit.metres(extent[1] - extent[0]));
+    let length = settings.stated.length_between_perpendiculars.or(by_stations)?;
+    let [full, half] = [length / largest, 0.5 * length / largest];
+    let why = |ratio: f64, other: f64| format!("because L/B is {ratio:.1}, and {other:.1} otherwise");
+    match (SLENDER.contains(&full), SLENDER.contains(&half)) {
+        (true, false) if half < *SLENDER.start() => Some((true, why(full, half))),
+        (false, true) if full > *SLENDER.end() => Some((false, why(half, full))),
+        _ => None,
+    }
+}
+
+/// Takes over what titles say of a table that is no matrix: rows of one text, up to its header.
+pub(super) fn titles(rows: &[Vec<Field>], settings: &mut Settings, problems: &mut Problems) {
+    let above = &rows[..rows.len() - from_header(rows).len()];
+    let texts = || above.iter().flatten().filter(|field| !field.is_blank());
+    // A comma within a title parts it.
+    let whole = |row: &Vec<Field>| {
+        row.iter().map(Field::trimmed).filter(|text| !text.is_empty()).collect::<Vec<_>>().join(", ")
+    };
+    above.iter().for_each(|row| settings.prose(&whole(row)));
+    for text in texts() {
+        settings.prose(text.trimmed());
+        settings.dimensions(text.trimmed(), problems);
+    }
+    breadths(&texts().collect::<Vec<_>>(), settings, problems);
+}
+
+/// Takes over what titles say of breadths.
+pub(super) fn breadths(titles: &[&Field], settings: &mut Settings, problems: &mut Problems) {
+    if settings.full.is_some() {
+        return;
+    }
+    if let Some(text) = titles.iter().find(|text| says_full(&text.text)) {
+        take_full(text, settings, problems);
+    } else if let Some(text) = titles.iter().find(|text| says_breadths(&text.text, false)) {
         problems.warning("W320", text.place(), half_taken(text.trimmed()), HALF_OR_FULL);
     }
+}
+
+/// Takes breadths as full ones, by a text.
+fn take_full(text: &Field, settings: &mut Settings, problems: &mut Problems) {
+    let message = format!("full breadths, by '{}'", text.trimmed());
+    problems.warning("W320", text.place(), message, "Give breadths = \"half\" in the conventions if they are not");
+    settings.full = Some(true);
+}
+
+/// What settles whether breadths are half ones.
+pub(super) const HALF_OR_FULL: &str = "Give breadths = \"half\" or breadths = \"full\" in the conventions";
+
+/// Says that breadths are taken as half ones.
+pub(super) fn half_taken(name: &str) -> String {
+    format!("'{name}' does not say whether breadths are half or full: taken as half-breadths")
 }
 
 /// What is to be done about heights that count downward.
@@ -63,6 +152,11 @@ pub(super) const UPWARD: &str = "Give heights above the base line";
 /// Whether words say that numbers are breadths, and not whether half or full ones.
 fn says_breadths(text: &str, is_header: bool) -> bool {
     let lower = text.to_lowercase().replace(['-', '_'], " ");
+    // `B(x,z)` is the breadth where `y(x,z)` is the half-breadth.
+    let close: String = lower.chars().filter(|c| !c.is_whitespace()).collect();
+    if ["b(x", "b(z"].iter().any(|begin| close.starts_with(begin)) {
+        return true;
+    }
     let mut words = lower.split(|c: char| !c.is_alphabetic());
     // `Beam trawler` is the name of a ship.
     let says = |word: &str| {
@@ -90,9 +184,28 @@ fn unit_of_breadths(text: &str) -> Option<Notation> {
     Notation::from_word(word)
 }
 
-/// Whether words say that breadths are full.
+/// Whether words say that breadths are full. `Full breadth moulded 16 m` states a dimension.
 pub(super) fn says_full(text: &str) -> bool {
     let lower = text.to_lowercase();
+    lower.split([';', ',']).any(|part| !is_particular(part) && says_full_part(part))
+}
+
+/// Whether a part of a text states a breadth of the ship: one breadth, with its number or the word moulded.
+fn is_particular(lower: &str) -> bool {
+    let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
+    let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
+    let number = lower.find(|c: char| c.is_ascii_digit());
+    // `Full breadth at 2 m` is over offsets.
+    let states = number.is_some_and(|at| !lower[..at].trim_end().ends_with(" at"));
+    has(&["breadth", "beam", "width"])
+        && (states || has(&["moulded", "molded", "mld", "extreme", "overall", "max", "maximum"]))
+}
+
+fn says_full_part(lower: &str) -> bool {
+    let close: String = lower.chars().filter(|c| !c.is_whitespace()).collect();
+    if ["2y(x", "2y(z", "2y["].iter().any(|begin| close.starts_with(begin)) {
+        return true;
+    }
     let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
     let is_full = |word: &str| matches!(word, "full" | "whole");
     let is_breadth = |word: &str| matches!(word.trim_end_matches('s'), "breadth" | "beam" | "width");
@@ -125,8 +238,8 @@ pub(super) fn unit_of_text(text: &str) -> Option<Notation> {
 fn dimensions(pieces: &Pieces, settings: &mut Settings, problems: &mut Problems) {
     for (key, value) in &pieces.pairs {
         let bare = key.text.split(['[', '(', '=', ':']).next().unwrap_or_default();
-        let text = format!("{} {}", bare.trim(), value.trimmed());
-        settings.prose(&text);
+        let own = unit_of(key.trimmed()).filter(|_| plain_number(&value.text).is_some());
+        settings.prose(&format!("{} {} {}", bare.trim(), value.trimmed(), own.map_or("", Notation::as_str)));
         let Some(slot) = slot(&mut settings.stated, bare) else { continue };
         let unit = unit_of(key.trimmed()).unwrap_or(Notation::Metres);
         let length = match plain_number(&value.text) {

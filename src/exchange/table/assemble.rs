@@ -2,13 +2,13 @@
 
 use super::checks;
 use super::grid::MOST_LINES;
-use super::header::{Axis, Coordinate, Corner, From, Position, positions, unit_of};
+use super::header::{Axis, Coordinate, Corner, From, Position, position, positions, unit_of};
 use super::heights;
 use super::matrix::{Block, MatrixRow};
 use super::numbering::{Breadths, origin};
 use super::problem::{Field, Problems};
 use super::scale::{Size, Units, ends_from_midship, units};
-use super::settings::Settings;
+use super::settings::{Settings, metres};
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, SideKind, SideLine, StationDatum, StationOffsets, TableForm, Written,
 };
@@ -193,14 +193,16 @@ pub(super) fn order(values: &[f64], fields: &[Field], what: &str, problems: &mut
         if let Some(twin) = values[..i].iter().position(|v| (v - here).abs() < SAME) {
             let twin = &fields[twin];
             let place = format!("row {}, column {}", twin.row, twin.column);
-            let message = format!("a {what} at {here} m stands in {place} already ('{}')", twin.trimmed());
+            let message = format!("a {what} at {} m stands in {place} already ('{}')", metres(here), twin.trimmed());
             problems.error("E306", &fields[i], message, "Take one of them away, or correct its position");
             good = false;
         } else if (here > before) != (order == Order::Rising) {
             let word = if order == Order::Rising { "rise" } else { "fall" };
             let message = format!(
-                "the positions of the {what}s {word}, but {here} m ('{}') follows {before} m ('{}')",
+                "the positions of the {what}s {word}, but {} m ('{}') follows {} m ('{}')",
+                metres(here),
                 fields[i].trimmed(),
+                metres(before),
                 fields[i - 1].trimmed()
             );
             problems.error("E303", &fields[i], message, "Correct the position, or put the lines in order");
@@ -264,7 +266,8 @@ pub(super) fn assemble(
     });
     let end = |line: Option<&MatrixRow>| Size::of(line.into_iter().flat_map(|line| &line.cells), comma).largest;
     let ends = [first.stations.first(), first.stations.last()].map(|line| end(line) / y.largest.max(f64::MIN_POSITIVE));
-    let breadths = Breadths { largest: half * rough.metres(y.largest), ends };
+    let breadths =
+        Breadths { largest: half * rough.metres(y.largest), ends, stem_is_beyond: stem_is_beyond(&blocks, comma) };
     let origin = origin(settings, corner, &stations, breadths, problems);
     let sizes = [Size::of_positions(stations.iter()), y, Size::of_positions(heads.iter())];
     let units = units(settings, corner, sizes, origin.numbers, problems);
@@ -294,6 +297,22 @@ pub(super) fn assemble(
         table.stations.iter_mut().flat_map(|s| &mut s.heights).for_each(|cell| cell.written = None);
     }
     Some(table)
+}
+
+/// Whether the distances of the stem are greater than those of the stern, on the average.
+fn stem_is_beyond(blocks: &[Block], comma: bool) -> Option<bool> {
+    let mean = |wanted: SideKind| {
+        let rows = blocks.iter().flat_map(|block| &block.endings).filter(|(kind, _)| *kind == wanted);
+        let fields = rows.flat_map(|(_, line)| &line.cells).filter(|field| !field.is_blank());
+        let all: Vec<f64> = fields
+            .filter_map(|field| match position(field.trimmed(), comma).ok()?.place {
+                Coordinate::Number(distance) | Coordinate::Length(distance) => Some(distance),
+                _ => None,
+            })
+            .collect();
+        (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+    };
+    Some(mean(SideKind::Stem)? > mean(SideKind::Stern)?)
 }
 
 /// Distance between the perpendiculars \[m\] as distances from `open` were placed; none where they count from AP.
@@ -339,7 +358,7 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
         heads.iter_mut().for_each(|head| head.named = true);
     }
     let is_breadths = block.across == Axis::Waterline;
-    let spacing = if is_breadths { heights::spacing(block, &heads, reader) } else { reader.settings.waterline_spacing };
+    let spacing = heights::spacing(block, &heads, reader);
     let datum = if is_breadths { reader.datum } else { 0.0 };
     let across: Vec<f64> = heads.into_iter().map(|p| datum + reader.across_by(p, spacing)).collect();
     let xs: Vec<f64> = stations.into_iter().map(|p| reader.along(p)).collect();

@@ -18,18 +18,18 @@ mod diagonals;
 mod groups;
 
 use self::groups::{Group, Lines, Row, group_of, lines, settled, words};
-use super::around::{UPWARD, says_full};
+use super::around::{HALF_OR_FULL, UPWARD, half_taken, says_full};
 use super::assemble::{TableReader, order};
 use super::header::{Axis, Corner, Position, counts_down, position};
-use super::long::{HALF_OR_FULL, half_taken};
+
 use super::numbering::{Breadths, origin};
 use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, ends_from_midship, units};
 use super::settings::Settings;
 
 use crate::hull::{
-    Entry, Kept, Marks, OffsetTable, Order, OutlinePoint, StationOffsets, TableForm, TableLayout, Written, WrittenLine,
-    WrittenPoint,
+    Entry, Kept, Marks, OffsetTable, Order, OutlinePoint, StationDatum, StationOffsets, TableForm, TableLayout,
+    Written, WrittenLine, WrittenPoint,
 };
 
 /// Points of a section nearer than this are one \[m\].
@@ -132,7 +132,8 @@ pub(super) fn read(
         ends.map(|word| end_of(&word)).find(|end| *end != 0).unwrap_or_else(|| end_of(&row.name))
     };
     let from = positions_row.map(counts_from);
-    if turn(&mut table, settings, from, reader.problems) {
+    let is_placed = matches!(datum, StationDatum::Shifted { .. });
+    if !is_placed && turn(&mut table, settings, from, reader.problems) {
         kept.reverse();
     }
     reader.form.boat_lines = written_lines(&points, &kept);
@@ -372,7 +373,7 @@ fn turn(table: &mut OffsetTable, settings: &Settings, from: Option<i32>, problem
         table.stations.iter_mut().for_each(|station| station.station.x = length - station.station.x);
         table.stations.reverse();
         problems.note("stations count from the stem; the aftmost one is at x = 0".to_owned());
-    } else if aft == 0 && fore == 0 && from.is_some() {
+    } else if aft == 0 && fore == 0 && from.is_some() && !settings.sentences.names_end() {
         let message = "no name says which end is the stem: x counts from aft. From the stem the hull is turned about, and LCB changes its sign";
         let remedy = "Name a station 'transom' or 'stem', or give stations = \"from FP\" in the conventions";
         problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);

@@ -129,5 +129,9 @@ pub(super) fn write(table: &OffsetTable, program: Program) -> Option<super::Writ
     }
     rounding.root_mean_square = (squares / rounding.cells.max(1) as f64).sqrt();
     // A difference beyond any rounding is another hull.
-    (rounding.largest.max(rounding.largest_of_positions) < 1e-3).then_some(super::WrittenTable { text, rounding })
+    (rounding.largest.max(rounding.largest_of_positions) < 1e-3).then_some(super::WrittenTable {
+        text,
+        rounding,
+        is_alike: true,
+    })
 }

@@ -81,7 +81,8 @@ pub(super) fn with_line_ends(text: Cow<'_, str>) -> Cow<'_, str> {
 /// comma, or the blank.
 fn sniff(text: &str) -> char {
     let mut counts = [0usize; 3];
-    let all = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let labels = has_hash_labels(text.lines());
+    let all = text.lines().filter(|line| !line.trim().is_empty() && (labels || !line.starts_with('#')));
     let lines: Vec<&str> = all.take(200).collect();
     for line in &lines {
         let mut open = false;
@@ -102,6 +103,23 @@ fn sniff(text: &str) -> char {
     let most = ['\t', ';', '|'].into_iter().zip(counts).max_by_key(|(_, count)| *count);
     let other = if blanks::part(&lines) { ' ' } else { ',' };
     most.filter(|(_, count)| 2 * count > lines.len()).map_or(other, |(c, _)| c)
+}
+
+/// Whether a line is numbers behind a label as `#0`.
+pub(super) fn is_hash_label(line: &str) -> bool {
+    let mut fields = line.split(['\t', ';', '|', ',', ' ']).map(str::trim).filter(|field| !field.is_empty());
+    let is_number = |field: &str| field.parse::<f64>().is_ok();
+    let label = fields.next().and_then(|field| field.strip_prefix('#'));
+    label.is_some_and(is_number) && fields.next().is_some_and(is_number)
+}
+
+/// Whether the rows of a table are labelled `#0`, `#1`: more lines of numbers begin so than otherwise. Fewer are comments.
+pub(super) fn has_hash_labels<'t>(lines: impl Iterator<Item = &'t str>) -> bool {
+    let numbers = lines.filter_map(|line| match is_hash_label(line) {
+        true => Some(1),
+        false => line.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '-').then_some(-1),
+    });
+    numbers.sum::<i64>() > 0
 }
 
 /// Splits a text into rows of fields; every breach of a limit is an error.
@@ -147,9 +165,10 @@ fn header_of_comment(grid: &mut Grid) {
 }
 
 fn split_at_blanks(text: &str, grid: &mut Grid, problems: &mut Problems) -> Option<()> {
+    let labels = has_hash_labels(text.lines());
     let mut lines: Vec<(usize, &str)> = Vec::new();
     for (index, line) in text.lines().enumerate() {
-        match line.trim_start().strip_prefix('#') {
+        match line.trim_start().strip_prefix('#').filter(|_| !(labels && is_hash_label(line))) {
             Some(comment) => grid.comments.push((index + 1, comment.trim().to_owned())),
             None => lines.push((index + 1, line)),
         }
@@ -173,8 +192,10 @@ fn split_at_separators(text: &str, grid: &mut Grid, problems: &mut Problems) -> 
     let separator = grid.separator;
     let (mut line, mut cells) = (1, 0);
     let mut rest = text;
+    let labels = has_hash_labels(text.lines());
     while !rest.is_empty() {
-        if let Some(comment) = rest.strip_prefix('#') {
+        let is_label = labels && rest.lines().next().is_some_and(is_hash_label);
+        if let Some(comment) = rest.strip_prefix('#').filter(|_| !is_label) {
             let end = comment.find('\n').unwrap_or(comment.len());
             grid.comments.push((line, comment[..end].trim().to_owned()));
             rest = comment.get(end + 1..).unwrap_or("");

@@ -10,6 +10,7 @@ pub(super) use names::{
     SIDES, counts_down, counts_from_waterline, has_area_unit, is_aftward, is_area_unit, is_deck, side_name, side_of,
 };
 
+use self::names::is_function;
 use crate::units::{Dimension, Notation, UnitError, parse};
 
 /// What a header is about.
@@ -19,13 +20,15 @@ pub(super) enum Axis {
     X,
     /// Stations by their number.
     Station,
+    /// Stations by the number of a frame.
+    Frame,
     Waterline,
     Buttock,
 }
 
 impl Axis {
     pub(super) fn is_station(self) -> bool {
-        matches!(self, Self::X | Self::Station)
+        matches!(self, Self::X | Self::Station | Self::Frame)
     }
 }
 
@@ -80,8 +83,9 @@ fn words(text: &str) -> Vec<String> {
 fn axis_word(word: &str) -> Option<Axis> {
     Some(match word {
         "x" | "distance" | "abscissa" => Axis::X,
-        "station" | "stations" | "stn" | "stns" | "sta" | "st" | "frame" | "frames" | "fr" | "ordinate" | "section"
-        | "sections" | "sec" | "rebro" | "spant" => Axis::Station,
+        "station" | "stations" | "stn" | "stns" | "sta" | "st" | "ordinate" | "section" | "sections" | "sec"
+        | "rebro" => Axis::Station,
+        "frame" | "frames" | "fr" | "spant" => Axis::Frame,
         "z" | "wl" | "wls" | "waterline" | "waterlines" | "height" | "heights" | "draught" | "draft" | "level"
         | "base" | "baseline" => Axis::Waterline,
         word if LEVELS.contains(&word) => Axis::Waterline,
@@ -185,7 +189,8 @@ impl From {
 impl Corner {
     pub(super) fn of(text: &str) -> Self {
         let unit = unit_of(text);
-        let bare = text.split(['[', '(']).next().unwrap_or("");
+        // `y(x,z)` is over half-breadths, and says nothing of rows and columns.
+        let bare = if is_function(text) { "" } else { text.split(['[', '(']).next().unwrap_or("") };
         let parts = bare.split_once(['\\', '/']).filter(|(_, after)| axis_of(after).is_some());
         let (rows, columns) = match parts {
             Some((before, after)) => (axis_of(before), axis_of(after)),

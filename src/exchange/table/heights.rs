@@ -7,29 +7,41 @@ use super::problem::{Field, FilePosition, Problems};
 use super::settings::{Settings, metres};
 use crate::hull::{Entry, SideKind, SideLine, TableForm};
 
-/// The distance between waterlines that have numbers \[m\], where it is known; a warning where it is not.
+/// The distance between waterlines, or buttocks, that have numbers \[m\], where it is known; a warning where it is not.
 pub(super) fn spacing(block: &Block, heads: &[Position], reader: &mut TableReader<'_>) -> Option<f64> {
-    if !are_numbered(block, heads, reader.settings) {
-        return reader.settings.waterline_spacing;
+    let settings = reader.settings;
+    let (noun, stated, said) = match block.across {
+        Axis::Buttock => ("buttock", settings.buttock_spacing, &settings.sentences.buttocks),
+        _ => ("waterline", settings.waterline_spacing, &settings.sentences.waterlines),
+    };
+    // Buttocks 1, 2, 3 are numbers; 0.5, 2 and 4 are distances.
+    let is_count = |pair: &[Position]| match (pair[0].place, pair[1].place) {
+        (Coordinate::Number(a), Coordinate::Number(b)) => ((b - a).abs() - 1.0).abs() < 1e-9,
+        _ => false,
+    };
+    let counts = block.across != Axis::Buttock || heads.windows(2).all(is_count);
+    if stated.is_some() || !counts || !are_numbered(block, heads, settings) {
+        return stated;
     }
-    let (message, remedy) = match &reader.settings.sentences.waterlines {
+    let (message, remedy) = match said {
         Some((spacing, words)) => {
-            let message = format!("'{words}' says that waterlines are {} m apart", metres(*spacing));
-            (message, "Give waterline_spacing in the conventions if it does not")
+            let message = format!("'{words}' says that {noun}s are {} m apart", metres(*spacing));
+            (message, format!("Give {noun}_spacing in the conventions if it does not"))
         }
         None => {
             let [first, .., last] = block.heads.as_slice() else { return None };
             let message = format!(
-                "waterlines are numbered, '{}' to '{}', and their spacing is not known: taken as 1 {} apart",
+                "{noun}s are numbered, '{}' to '{}', and their spacing is not known: taken as 1 {} apart",
                 first.trimmed(),
                 last.trimmed(),
                 reader.units.z.as_str()
             );
-            (message, "Give waterline_spacing in the conventions, or heights with their unit")
+            let positions = if noun == "buttock" { "distances" } else { "heights" };
+            (message, format!("Give {noun}_spacing in the conventions, or {positions} with their unit"))
         }
     };
-    reader.problems.warning("W320", FilePosition::FILE, message, remedy);
-    reader.settings.sentences.waterlines.as_ref().map(|(spacing, _)| *spacing)
+    reader.problems.warning("W320", FilePosition::FILE, message, &remedy);
+    said.as_ref().map(|(spacing, _)| *spacing)
 }
 
 /// Fewer whole numbers among waterlines are no numbers where others have decimals.
@@ -40,7 +52,7 @@ const LEAST_WHOLE: usize = 4;
 fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool {
     let corner = Corner::of(block.corner.trimmed());
     let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
-    if settings.waterline_spacing.or(settings.z_units.map(|_| 1.0)).is_some() || corner.unit.is_some() && of_heights {
+    if settings.z_units.is_some() || corner.unit.is_some() && of_heights {
         return false;
     }
     let named = heads.iter().filter(|head| head.named).count();

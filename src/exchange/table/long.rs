@@ -5,10 +5,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::around::{UPWARD, says_full, unit_of_text};
+use super::around::{HALF_OR_FULL, UPWARD, half_taken, says_full, unit_of_text};
 use super::columns::{Column, KNOWN, Named, Whole, breadths, column, is_ordinate};
 use super::fields::decimals;
-use super::header::{begins_as_number, counts_down, position};
+use super::header::{Axis, axis_of, begins_as_number, counts_down, position};
 use super::outline::{keel_of, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
 use super::ratio::missing_dimensions;
@@ -79,6 +79,12 @@ impl Columns {
         self.find(Column::Z).or_else(|| self.find(Column::Waterline))
     }
 
+    /// Whether columns hold half-breadths with their heights and stations.
+    fn is_placed(&self) -> bool {
+        let has = |column| self.find(column).is_some();
+        has(Column::Y) && self.height().is_some() && (has(Column::X) || has(Column::Station))
+    }
+
     fn indices(&self) -> usize {
         self.all.iter().flatten().filter(|named| named.column == Column::Index).count()
     }
@@ -89,10 +95,17 @@ fn field_without(text: &str, words: [&str; 2]) -> String {
     words.into_iter().fold(text.to_lowercase(), |text, word| text.replace(word, "")).trim().to_owned()
 }
 
-/// The rows from the header on: titles of one field may stand above it.
-fn from_header(rows: &[Vec<Field>]) -> &[Vec<Field>] {
+/// A header of points, or of one offset a row, stands among so many rows.
+const HIGHEST_HEADER: usize = 20;
+
+/// The rows from the header on: titles of one field may stand above it, and of more above the words of columns.
+pub(super) fn from_header(rows: &[Vec<Field>]) -> &[Vec<Field>] {
     let filled = |row: &Vec<Field>| row.iter().filter(|field| !field.is_blank()).count();
-    let at = rows.iter().position(|row| filled(row) > 1).unwrap_or(0);
+    let has_number = |row: &Vec<Field>| row.iter().any(|field| begins_as_number(&field.text));
+    let words = rows.iter().take(HIGHEST_HEADER).take_while(|row| !has_number(row));
+    let named =
+        words.enumerate().find(|(_, row)| tidy::is_header(row) || Columns::of(row).is_placed()).map(|(at, _)| at);
+    let at = named.or_else(|| rows.iter().position(|row| filled(row) > 1)).unwrap_or(0);
     &rows[at..]
 }
 
@@ -115,14 +128,6 @@ pub(super) fn refuse_words(header: &[Field], problems: &mut Problems) {
     let unknown = header.iter().find(|field| column(&field.text).is_none()).unwrap_or(&header[0]);
     let message = format!("one point a row, and no word that is known for its columns: '{}'", unknown.trimmed());
     problems.error("E310", unknown, message, &format!("Name the columns {KNOWN}"));
-}
-
-/// What settles whether breadths are half ones.
-pub(super) const HALF_OR_FULL: &str = "Give breadths = \"half\" or breadths = \"full\" in the conventions";
-
-/// Says that breadths are taken as half ones.
-pub(super) fn half_taken(name: &str) -> String {
-    format!("'{name}' does not say whether breadths are half or full: taken as half-breadths")
 }
 
 /// Whether the first row names the columns of points and no kind of curve.
@@ -180,7 +185,9 @@ pub(super) fn read(
     let mut points = points(rows, header, &columns, problems)?;
     let digits = points.iter().map(|point| decimals(&point.y.text.replace(',', "."))).max().unwrap_or(0);
     let scaled = fractions(&mut points, &columns, comma, &settings, problems)?;
-    distances(&mut points, &columns, comma, &settings, problems);
+    let is_spaced =
+        settings.station_spacing.is_some() || settings.sentences.frames.is_some() && by_frames(header, &columns);
+    distances(&mut points, &columns, comma, (&settings, is_spaced), problems);
     waterlines(&mut points, &columns, &settings, problems);
     one_side(&mut points, comma, problems);
     let (on_waterlines, heights) = on_waterlines(&points);
@@ -192,7 +199,8 @@ pub(super) fn read(
         _ if on_waterlines => format!("the points stand on {heights} heights and are read as sections"),
         _ => "the points stand on different heights and are read as sections".to_owned(),
     });
-    let mut table = tidy::read(&tidy_rows(points, curve), form, &settings, problems)?;
+    let name = if by_frames(header, &columns) { "frame" } else { "station" };
+    let mut table = tidy::read(&tidy_rows(points, name, curve), form, &settings, problems)?;
     if curve == "SEC" {
         sections(&mut table, problems);
     }
@@ -384,14 +392,25 @@ fn steps<'p>(fields: impl Iterator<Item = &'p Field>, comma: bool) -> Option<(Ve
     Some((values, steps))
 }
 
+/// Whether the column of stations holds numbers of frames.
+fn by_frames(header: &[Field], columns: &Columns) -> bool {
+    columns.find(Column::Station).is_some_and(|(at, _)| axis_of(header[at].trimmed()) == Some(Axis::Frame))
+}
+
 /// Stations without a column x: their numbers, which stay in the column of stations, or distances.
-fn distances(points: &mut [Point], columns: &Columns, comma: bool, settings: &Settings, problems: &mut Problems) {
+fn distances(
+    points: &mut [Point],
+    columns: &Columns,
+    comma: bool,
+    (settings, is_spaced): (&Settings, bool),
+    problems: &mut Problems,
+) {
     let Some((_, named)) = columns.find(Column::Station).filter(|_| columns.find(Column::X).is_none()) else { return };
     let numbered = settings.stations.map(|scale| scale.numbers);
     let found = steps(points.iter().map(|point| &point.x), comma);
     let median = found.as_ref().and_then(|(_, steps)| steps.get(steps.len() / 2).copied());
     let by_size = median.is_some_and(|step| step > LARGEST_STEP);
-    let stated = named.unit.is_some() || named.fraction.is_some() || settings.station_spacing.is_some();
+    let stated = named.unit.is_some() || named.fraction.is_some() || is_spaced;
     if numbered.is_none()
         && !stated
         && by_size
@@ -411,7 +430,7 @@ fn distances(points: &mut [Point], columns: &Columns, comma: bool, settings: &Se
         );
     }
     let lengths = named.unit.is_some() || named.fraction.is_some() || numbered == Some(false);
-    if !(lengths || numbered.is_none() && settings.station_spacing.is_none() && by_size) {
+    if !(lengths || numbered.is_none() && !is_spaced && by_size) {
         points.iter_mut().for_each(|point| point.x.text.clear());
     }
 }
@@ -467,9 +486,9 @@ fn by_stations(points: &[Point]) -> bool {
     points.chunk_by(|a, b| place(a) == place(b)).count() < 2 * stations.len()
 }
 
-fn tidy_rows(points: Vec<Point>, curve: &str) -> Vec<Vec<Field>> {
+fn tidy_rows(points: Vec<Point>, name: &str, curve: &str) -> Vec<Vec<Field>> {
     let word = |text: &str| Field { text: text.to_owned(), ..Field::default() };
-    let mut rows = vec![["station", "x", "curve", "z", "y", "flag"].map(word).to_vec()];
+    let mut rows = vec![[name, "x", "curve", "z", "y", "flag"].map(word).to_vec()];
     rows.extend(points.into_iter().map(|point| {
         let Point { station, x, z, y, flag } = point;
         vec![station, x, word(curve), z, y, flag]

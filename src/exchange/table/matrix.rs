@@ -7,7 +7,7 @@
 use super::header::{Axis, Corner, axis_of, has_area_unit, is_base_line, is_deck, is_orderly, plain_number, side_of};
 use super::pieces::Piece;
 use super::problem::{Field, FilePosition, Problems};
-use super::settings::Settings;
+use super::settings::{Settings, spacing};
 use crate::hull::{Rows, SideKind};
 use crate::units::{CellEntry, CellRules, Notation, counted, parse_cell};
 
@@ -279,6 +279,13 @@ fn are_buttocks<'f>(heads: impl Iterator<Item = &'f Field>) -> bool {
     begins && buttocks.len() > others.len()
 }
 
+/// Whether a title is that of heights at buttocks; `Buttocks 2 m apart` is none.
+fn is_over_buttocks(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let states_spacing = spacing(&lower, &["buttock", "buttocks"]).is_some() && !lower.contains("height");
+    axis_of(text) == Some(Axis::Buttock) && names_buttock(text) && !states_spacing
+}
+
 /// Whether a header names a buttock in full; `BL` may be the base line.
 fn names_buttock(text: &str) -> bool {
     let lower = text.to_lowercase();
@@ -409,7 +416,8 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
     let top = usize::from(fields.len() > 2 && is_word(&fields[1][0]) && is_positions(&fields[1][0], false));
     let names = fields[0].len() > 2 && {
         let (first, second) = (&fields[0][0], &fields[0][1]);
-        let named = first.is_blank() || axis_of(first.trimmed()).is_none_or(|axis| axis == Axis::Station);
+        let named =
+            first.is_blank() || axis_of(first.trimmed()).is_none_or(|axis| axis.is_station() && axis != Axis::X);
         is_word(second) && is_positions(second, true) && named
     };
     let left = usize::from(names);
@@ -420,7 +428,7 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
     let across =
         if rows == Rows::Waterlines { says.rows.filter(|a| !a.is_station()).or(says.columns) } else { says.columns };
     let buttocks = across == Some(Axis::Buttock)
-        || across.is_none() && piece.texts.iter().any(|text| axis_of(&text.text) == Some(Axis::Buttock))
+        || across.is_none() && piece.texts.iter().any(|text| is_over_buttocks(&text.text))
         || are_buttocks(heads.iter().skip(left + 1));
     let mut block = Block {
         corner,

@@ -48,6 +48,8 @@ mod sections;
 mod settings;
 mod several;
 mod sheets;
+#[cfg(feature = "workbooks")]
+mod shown;
 mod sidecar;
 mod sides;
 mod thousands;
@@ -248,6 +250,9 @@ fn of_grid(
     if let Some(header) = long::unknown_words(&grid.rows).filter(|_| layout == TableLayout::Matrix) {
         long::refuse_words(header, problems);
         return None;
+    }
+    if layout != TableLayout::Matrix {
+        around::titles(&grid.rows, settings, problems);
     }
     // The comma of a pair stands between its two numbers.
     let decimal_comma =

@@ -16,6 +16,13 @@ const JUMP: f64 = 3.0;
 const FULL_END: std::ops::RangeInclusive<f64> = 0.2..=0.97;
 const FINE_END: f64 = 0.25;
 
+/// What settles from where stations count.
+pub(super) const ORIGINS: &str =
+    "Give stations = \"from FP\", \"from AP\", \"from midship\" or \"numbers from FP\" in the conventions";
+
+/// Hulls end within this part of their length beyond the perpendiculars.
+pub(super) const OVERHANG: f64 = 0.25;
+
 /// Hulls whose length would be less than this many breadths may have numbers for stations.
 const SHORT: f64 = 4.0;
 
@@ -53,6 +60,8 @@ pub(super) struct Breadths {
     pub(super) largest: f64,
     /// The largest of the first station, and of the last, over the largest of all.
     pub(super) ends: [f64; 2],
+    /// Whether the profile of the stem has greater distances than that of the stern, where both are given.
+    pub(super) stem_is_beyond: Option<bool>,
 }
 
 impl Breadths {
@@ -61,6 +70,12 @@ impl Breadths {
         let [first, last] = self.ends;
         let is_full = |full: f64, fine: f64| FULL_END.contains(&full) && fine <= FINE_END * full;
         if is_full(first, last) { Some(true) } else { is_full(last, first).then_some(false) }
+    }
+
+    /// Whether distances rise toward the bow, with the reason; `rises` where they rise in the order of the file.
+    fn forward(&self, rises: bool) -> Option<(bool, &'static str)> {
+        let by_profiles = self.stem_is_beyond.map(|beyond| (beyond, "by the profiles of stem and stern"));
+        by_profiles.or_else(|| Some((self.begins_full()? == rises, "because the fuller end is the stern")))
     }
 }
 
@@ -151,7 +166,7 @@ pub(super) fn origin(
     let heads = distinct(heads);
     let numbers: Vec<f64> = heads.iter().filter_map(plain).collect();
     let (low, high) = numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
-    let named = heads.iter().filter(|p| p.named || p.axis == Some(Axis::Station)).count();
+    let named = heads.iter().filter(|p| p.named || matches!(p.axis, Some(Axis::Station | Axis::Frame))).count();
     let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
     // A sentence counts where no key and no header says it.
     let said = settings.sentences.stations.as_ref().filter(|(scale, _)| {
@@ -172,7 +187,11 @@ pub(super) fn origin(
     let corner = Corner { from: corner.from.or(end.map(|(from, _)| *from)), ..corner };
     let scale = stated.unwrap_or_else(|| {
         let are_numbers = match says {
-            Some(Axis::Station) if corner.unit.or(corner.x_unit).is_none() && high - low <= MOST_NUMBERS => true,
+            Some(Axis::Station | Axis::Frame)
+                if corner.unit.or(corner.x_unit).is_none() && high - low <= MOST_NUMBERS =>
+            {
+                true
+            }
             Some(Axis::X) => false,
             _ if 2 * named > heads.len() && high - low <= MOST_NUMBERS => true,
             // Without words, or with a unit beside them: a hull that would be shorter than it is broad counts its
@@ -201,14 +220,31 @@ pub(super) fn origin(
         let aftward = corner.aftward
             || said.map(|(_, words)| words).or(end.map(|(_, words)| words)).is_some_and(|words| is_aftward(words));
         let is_open = stated.is_none() && corner.from.is_none();
-        let from = Some(scale.from).filter(|_| !is_open);
+        let (from, aftward) = match is_open {
+            false => (Some(scale.from), aftward),
+            true => by_signs(&heads, breadths, problems).map_or((None, false), |(from, aft)| (Some(from), aft)),
+        };
         let datum = distances(from, aftward, extremes(&heads), length, problems);
         return Origin { datum, numbers: scale.numbers, length: None };
     }
     let [aft, fore] = [From::AftPerpendicular, From::ForePerpendicular].map(|end| number_of(&heads, end));
     let between = aft.zip(fore).map(|(aft, fore)| (fore - aft).abs()).filter(|spaces| *spaces > 0.0);
-    let spacing = spacing(settings, corner, (between, [low, high]), problems);
+    let of_frames = heads.iter().filter(|p| p.axis == Some(Axis::Frame)).count();
+    let are_frames = says == Some(Axis::Frame) || 2 * of_frames > heads.len();
+    let said = settings.sentences.frames.as_ref().filter(|_| are_frames).or(settings.sentences.spacing.as_ref());
+    let spacing = spacing(settings, corner, said, (between, [low, high]), problems);
     let is_open = stated.is_none() && corner.from.is_none();
+    if let Some((from, aftward)) =
+        Some(breadths).filter(|_| is_open).and_then(|known| by_signs(&heads, known, problems))
+    {
+        let offset = match from {
+            From::AftPerpendicular => 0.0,
+            From::ForePerpendicular => length.unwrap_or(-low * spacing),
+            From::Midship => 0.5 * length.unwrap_or((high - low) * spacing),
+        };
+        let datum = StationDatum::Numbers { offset, spacing: if aftward { -spacing } else { spacing } };
+        return Origin { datum: datum.into(), numbers: true, length: None };
+    }
     let by_ends = counted_from(aft, fore, [low, high]).filter(|_| is_open);
     let rises = numbers.first() < numbers.last();
     let by_breadths = breadths
@@ -251,7 +287,7 @@ pub(super) fn origin(
             // Without L_PP the last number is AP.
             let known = length.or(spaces.map(|n| n * spacing)).unwrap_or(high * spacing);
             let offset = known + fore.unwrap_or(0.0) * spacing;
-            problems.note(format!("station {} is FP, {known} m forward of AP", fore.unwrap_or(0.0)));
+            problems.note(format!("station {} is FP, {} m forward of AP", fore.unwrap_or(0.0), metres(known)));
             StationDatum::Numbers { offset, spacing: -spacing }
         }
         From::Midship => StationDatum::Numbers { offset: 0.5 * length.unwrap_or(0.0), spacing },
@@ -260,12 +296,45 @@ pub(super) fn origin(
     Origin { datum: datum.into(), numbers: true, length: between.map(|spaces| spaces * spacing) }
 }
 
-/// The least and the greatest distance among positions, in units of the table and in metres alike.
-fn extremes(heads: &[Position]) -> [f64; 2] {
-    let distances = heads.iter().filter_map(|head| match head.place {
+/// Distances among positions, in units of the table and in metres alike.
+fn lengths(heads: &[Position]) -> impl Iterator<Item = f64> {
+    heads.iter().filter_map(|head| match head.place {
         Coordinate::Number(distance) | Coordinate::Length(distance) => Some(distance),
         _ => None,
-    });
+    })
+}
+
+/// The point from which distances of both signs, or negative ones, count where no word states it, and whether those from
+/// midship are positive aft. No hull goes on farther beyond a perpendicular than [`OVERHANG`] of its length.
+fn by_signs(heads: &[Position], breadths: Breadths, problems: &mut Problems) -> Option<(From, bool)> {
+    let [low, high] = extremes(heads);
+    let overhang = OVERHANG * (high - low);
+    if -low <= overhang || heads.iter().any(|head| head.end.is_some()) {
+        return None;
+    }
+    let rises = lengths(heads).next() < lengths(heads).last();
+    let known = breadths.forward(rises);
+    let (forward, why) = known.unwrap_or((true, "and nothing tells which end is the bow"));
+    let from = match (high > overhang, forward) {
+        (true, _) => From::Midship,
+        (false, true) => From::ForePerpendicular,
+        (false, false) => From::AftPerpendicular,
+    };
+    let way = if forward { "forward" } else { "aft" };
+    let message = format!(
+        "stations from {} to {}, and no word says from where: taken from {}, positive {way}, {why}. The other way the hull is \
+         turned about, and LCB changes its sign",
+        metres(low),
+        metres(high),
+        from.as_str()
+    );
+    problems.warning("W320", FilePosition::FILE, message, ORIGINS);
+    Some((from, !forward))
+}
+
+/// The least and the greatest distance among positions.
+fn extremes(heads: &[Position]) -> [f64; 2] {
+    let distances = lengths(heads);
     distances.fold([0.0, 0.0], |[low, high], distance| [low.min(distance), high.max(distance)])
 }
 
@@ -297,7 +366,7 @@ fn distances(
         (From::Midship, None) => None,
     };
     if let Some(offset) = offset.filter(|_| from != From::AftPerpendicular) {
-        problems.note(format!("distances count from {}, which is {offset} m forward of AP", from.as_str()));
+        problems.note(format!("distances count from {}, which is {} m forward of AP", from.as_str(), metres(offset)));
     }
     let datum = StationDatum::Shifted { offset: offset.unwrap_or(0.0), sign };
     Datum { datum, open: Some(from).filter(|_| offset.is_none()) }
@@ -325,38 +394,44 @@ fn counts(numbers: &[f64], ends: [f64; 2]) -> bool {
     usual_step && usual(ends).is_some() && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9)
 }
 
-/// The distance from one number to the next \[m\]; `between` are the spaces between AP and FP, where both are named.
+/// The distance from one number to the next \[m\], perhaps as a sentence says it; `between` are the spaces between AP and FP,
+/// where both are named.
 fn spacing(
     settings: &Settings,
     corner: Corner,
+    said: Option<&(f64, String)>,
     (between, [low, high]): (Option<f64>, [f64; 2]),
     problems: &mut Problems,
 ) -> f64 {
-    let spaces = settings.spaces.or(corner.spaces).or(between).or(settings.sentences.spaces).or(usual([low, high]));
+    let stated = settings.spaces.or(corner.spaces).or(between).or(settings.sentences.spaces);
+    let spaces = stated.or(usual([low, high]));
     match (settings.station_spacing, settings.stated.length_between_perpendiculars, spaces) {
         (Some(spacing), _, _) => {
-            problems.note(format!("stations are numbered; {spacing} m from one number to the next"));
+            problems.note(format!("stations are numbered; {} m from one number to the next", metres(spacing)));
             spacing
         }
-        (None, length, spaces) if (length.is_none() || spaces.is_none()) && settings.sentences.spacing.is_some() => {
-            let (spacing, words) = settings.sentences.spacing.clone().unwrap_or_default();
-            let message = format!("'{words}' says that stations are {} m apart", metres(spacing));
+        (None, length, _)
+            if (length.is_none() || stated.is_none())
+                && let Some((spacing, words)) = said =>
+        {
+            let message = format!("'{words}' says that stations are {} m apart", metres(*spacing));
             problems.warning(
                 "W320",
                 FilePosition::FILE,
                 message,
                 "Give station_spacing in the conventions if it does not",
             );
-            spacing
+            *spacing
         }
         (None, Some(length), Some(spaces)) => {
-            problems.note(format!("stations are numbered; {spaces} spaces in L_PP of {length} m"));
+            problems.note(format!("stations are numbered; {spaces} spaces in L_PP of {} m", metres(length)));
             length / spaces
         }
         (None, Some(length), None) => {
             let spaces = high - low.min(0.0);
             let message = format!(
-                "stations are numbered {low} to {high}, and the number of spaces in L_PP of {length} m is not known: taken as {spaces}"
+                "stations are numbered {low} to {high}, and the number of spaces in L_PP of {} m is not known: taken as {spaces}",
+                metres(length)
             );
             problems.warning(
                 "W320",

@@ -5,6 +5,7 @@
 
 use super::assemble::TableReader;
 use super::header::{Corner, Position, position};
+use super::long::from_header;
 use super::numbering::{Breadths, origin};
 use super::problem::{Field, Problems};
 use super::scale::{Size, ends_from_midship, units};
@@ -38,7 +39,7 @@ pub(super) fn read(
     settings: &Settings,
     problems: &mut Problems,
 ) -> Option<OffsetTable> {
-    let mut rows = rows.iter().filter(|row| !row.is_empty());
+    let mut rows = from_header(rows).iter().filter(|row| !row.is_empty());
     let header = rows.next()?;
     let mut heads: Vec<(Field, Position)> = Vec::new();
     let mut unread: Vec<usize> = Vec::new();

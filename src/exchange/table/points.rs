@@ -8,16 +8,16 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use super::around::unit_of_text;
+use super::around::{self, unit_of_text};
 use super::columns::{self, Column};
 use super::fields::{Separator, TextLine, finish, lines, plain_number};
-use super::header::From;
+use super::header::{From, is_aftward};
 use super::outline::{point, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
 use super::ratio::separator;
 use super::scale::{LARGEST_HALF_BREADTH, UNIT};
 use super::sections::{Body, Section, XOrigin, refuse_negative, table};
-use super::settings::Settings;
+use super::settings::{Settings, StationScale};
 use super::sides::{Sides, sides};
 use super::{ReadTable, TableProblem};
 use crate::hull::{Marks, OutlinePoint};
@@ -131,21 +131,29 @@ pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<R
     own.comments(&text.lines().enumerate().filter_map(of_line).collect::<Vec<_>>(), &mut problems);
     settings.stated = settings.stated.over(&own.stated);
     settings.units = settings.units.or(own.units);
-    let said = own.sentences.stations.map(|(scale, _)| scale).filter(|scale| !scale.numbers);
-    settings.stations = settings.stations.or(own.stations).or(said);
     let mark = head(text).map_or(',', |(mark, _)| mark);
     let pointed = pointed(text, mark);
     let text = pointed.as_ref();
     let mut rows = lines(text, Separator::Exactly(mark));
     rows.retain(|line| has_field(line.text));
-    let titles = rows.iter().take_while(|line| is_title(line.text)).count();
-    let title: Option<String> = rows[..titles].first().map(|line| line.text.trim_end_matches(MARKS).to_owned());
-    let Some((head, lines)) = rows[titles..].split_first() else {
+    let count = rows.iter().take_while(|line| is_title(line.text)).count();
+    let titles = rows[..count].to_vec();
+    titles.iter().for_each(|line| own.prose(line.text.trim_end_matches(MARKS)));
+    let mut words = String::new();
+    settings.stations = settings.stations.or(own.stations);
+    if settings.stations.is_none()
+        && let Some((from, said)) = said(&own, &mut problems)
+    {
+        settings.stations = Some(StationScale { from, numbers: false });
+        words = said;
+    }
+    let title: Option<String> = titles.first().map(|line| line.text.trim_end_matches(MARKS).to_owned());
+    let Some((head, lines)) = rows[count..].split_first() else {
         problems.error("E324", FilePosition::FILE, "the file is empty".to_owned(), "");
         return finish(problems, None);
     };
     let mut columns: Vec<(Column, usize, f64)> = Vec::new();
-    let mut origin = XOrigin::Unknown;
+    let mut origin = XOrigin::Open;
     let is_declared =
         head.fields.iter().filter_map(|field| columns::column(field.text)).any(|named| named.unit.is_some());
     for (index, field) in head.fields.iter().enumerate() {
@@ -193,13 +201,17 @@ pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<R
         rows.iter_mut().for_each(|row| row.scale(factors));
     }
     let is_declared = is_declared || has_eighths || stated.iter().any(Option::is_some);
-    match settings.stations.map(|scale| scale.from) {
-        Some(From::AftPerpendicular) => origin = XOrigin::AfterPerpendicular,
+    if let Some(from) = settings.stations.map(|scale| scale.from) {
+        origin = if from == From::AftPerpendicular { XOrigin::AfterPerpendicular } else { XOrigin::Named(from) };
         // Distances from FP count aft, unless they are negative.
-        Some(From::ForePerpendicular) if rows.iter().map(|row| row.x).sum::<f64>() > 0.0 => {
+        let turned = match from {
+            From::ForePerpendicular => rows.iter().map(|row| row.x).sum::<f64>() > 0.0,
+            From::Midship => is_aftward(&words),
+            From::AftPerpendicular => false,
+        };
+        if turned {
             rows.iter_mut().for_each(|row| row.x = 0.0 - row.x);
         }
-        _ => {}
     }
     let mut unit = columns.iter().find(|(kind, _, _)| *kind == Column::Y).map_or(1.0, |(_, _, unit)| *unit);
     if !is_declared && are_millimetres(&rows) {
@@ -211,10 +223,35 @@ pub(super) fn read_with(name: &str, text: &str, settings: &Settings) -> Result<R
         let message = "no unit is declared; the points are taken as metres".to_owned();
         problems.warning("W320", FilePosition::FILE, message, UNIT);
     }
+    // What the conventions beside the file say is obeyed with all formats.
+    if settings.full.is_none() {
+        let field = |line: &TextLine<'_>| Field {
+            text: line.text.trim_end_matches(MARKS).to_owned(),
+            row: line.row,
+            column: 1,
+        };
+        let fields: Vec<Field> = titles.iter().map(field).collect();
+        around::breadths(&fields.iter().collect::<Vec<_>>(), &mut own, &mut problems);
+        if own.full == Some(true) {
+            rows.iter_mut().for_each(|row| row.point.y *= 0.5);
+        }
+    }
     let sections = group(&rows, &mut problems);
     let stated = settings.stated;
     let name = own.name.or(title).unwrap_or_default();
     table(Body { name, stated, sections, origin, unit }, problems)
+}
+
+/// Where distances count from by a sentence of the file, which is named.
+fn said(own: &Settings, problems: &mut Problems) -> Option<(From, String)> {
+    let scale =
+        own.sentences.stations.as_ref().filter(|(scale, _)| !scale.numbers).map(|(scale, words)| (scale.from, words));
+    let (from, words) = scale.or(own.sentences.end.as_ref().map(|(from, words)| (*from, words)))?;
+    if from != From::AftPerpendicular {
+        let message = format!("'{words}' says that stations are given by their distances from {}", from.as_str());
+        problems.warning("W320", FilePosition::FILE, message, "Give stations in the conventions if it does not");
+    }
+    Some((from, words.clone()))
 }
 
 fn row<'a>(

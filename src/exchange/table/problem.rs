@@ -157,6 +157,24 @@ fn quoted(text: &str) -> String {
     if shown.chars().count() > 40 { shown.chars().take(37).chain("...".chars()).collect() } else { shown }
 }
 
+/// A message whose decimals are the shortest to 1e-9: 0.9144 for 0.9144000000000001.
+fn shortened(message: &str) -> String {
+    let mut out = String::with_capacity(message.len());
+    for part in message.split_inclusive(|c: char| !c.is_ascii_digit() && c != '.') {
+        let number = part.trim_end_matches(|c: char| !c.is_ascii_digit());
+        let digits = number.split_once('.').map_or("", |(_, digits)| digits);
+        match number.parse::<f64>() {
+            Ok(value) if digits.len() > 9 => {
+                let short = format!("{value:.9}");
+                out += short.trim_end_matches('0').trim_end_matches('.');
+                out += &part[number.len()..];
+            }
+            _ => out += part,
+        }
+    }
+    out
+}
+
 /// Errors that are alike: how many, and the rows and columns from the first to the last.
 #[derive(Debug, Clone, Copy)]
 struct Alike {
@@ -249,7 +267,7 @@ impl Problems {
             return;
         }
         let QuotedPosition { place: FilePosition { row, column }, found } = spot;
-        let (file, found, remedy) = (self.file.clone(), quoted(found), remedy.to_owned());
+        let (file, found, remedy, message) = (self.file.clone(), quoted(found), remedy.to_owned(), shortened(&message));
         self.list.push(TableProblem { severity, code, file, row, column, found, message, remedy });
     }
 

@@ -89,13 +89,33 @@ pub(super) fn units(
         } else if y.largest > LARGEST_HALF_BREADTH || beyond(y, z, x, stations_are_numbers) {
             undeclared(y.largest, "millimetres", problems);
             Notation::Millimetres
-        } else {
+        } else if y.plain > 0 {
             undeclared(y.largest, "metres", problems);
+            Notation::Metres
+        } else {
+            // Half-breadths with units of their own say nothing of plain positions beside them.
+            let plain = if stations_are_numbers { 0.0 } else { x.largest }.max(z.largest);
+            if plain > 0.0 {
+                let message = format!("no unit is declared; positions up to {plain} are taken as metres");
+                problems.warning("W320", FilePosition::FILE, message, OTHER_UNIT);
+            }
             Notation::Metres
         }
     });
-    contradiction("half-breadth", offsets, y, LARGEST_HALF_BREADTH, declared.is_some(), problems);
-    let mut positions = |what: &str, own: Option<Notation>, size: Size, largest: f64, usual: f64| {
+    let x_unit = settings.x_units.or(corner.x_unit).or(corner.unit);
+    let z_unit = settings.z_units.or(corner.unit.filter(|_| both));
+    let possible = |unit: Option<Notation>, size: Size, largest: f64, usual: f64| {
+        let length = unit.or(declared).unwrap_or(Notation::Metres).metres(size.largest);
+        (length > 0.0 && length <= largest).then_some(length / usual)
+    };
+    let by_length = || possible(x_unit, x, LARGEST_LENGTH, USUAL_LENGTH).filter(|_| !stations_are_numbers);
+    if declared.is_some() {
+        let usual = possible(z_unit, z, LARGEST_HEIGHT, USUAL_HEIGHT).or_else(by_length);
+        let (unit, size, largest) = (offsets, y, LARGEST_HALF_BREADTH);
+        Contradiction { what: "half-breadth", key: "units", unit, size, largest, usual }.report(problems);
+    }
+    let half_breadth = possible(declared, y, LARGEST_HALF_BREADTH, 1.0);
+    let mut positions = |what: &'static str, own: Option<Notation>, size: Size, largest: f64, usual: f64| {
         let unit = own.unwrap_or_else(|| {
             let same = if offsets == Notation::FeetInchesEighths { Notation::Feet } else { offsets };
             let metres = match declared {
@@ -103,9 +123,13 @@ pub(super) fn units(
                 None => nearer_in_metres(size.largest, 1e-3 * y.largest, usual),
                 Some(_) => !both,
             };
-            if same == Notation::Millimetres && size.largest <= largest && size.plain > 0 && metres {
+            // Centimetres may be those of a model: the size of the half-breadths tells it.
+            let off = |length: f64| (length / (usual * same.metres(y.largest))).ln().abs();
+            let centimetres = same == Notation::Centimetres && off(size.largest) < off(same.metres(size.largest));
+            let is_small = same == Notation::Millimetres && metres || centimetres && declared.is_some() && !both;
+            if is_small && size.largest <= largest && size.plain > 0 {
                 let message =
-                    format!("half-breadths are millimetres; {what}s up to {} are taken as metres", size.largest);
+                    format!("half-breadths are {}; {what}s up to {} are taken as metres", name(same), size.largest);
                 problems.warning("W320", FilePosition::FILE, message, OTHER_UNIT);
                 Notation::Metres
             } else if declared.is_none() && same == Notation::Metres && size.largest > largest {
@@ -117,11 +141,15 @@ pub(super) fn units(
                 same
             }
         });
-        contradiction(what, unit, size, largest, own.or(declared).is_some(), problems);
+        if own.or(declared).is_some() {
+            let key = if what == "height" { "z_units" } else { "x_units" };
+            let usual = half_breadth.map(|half_breadth| usual * half_breadth);
+            Contradiction { what, key, unit, size, largest, usual }.report(problems);
+        }
         unit
     };
-    let z = positions("height", settings.z_units.or(corner.unit.filter(|_| both)), z, LARGEST_HEIGHT, USUAL_HEIGHT);
-    let own = settings.x_units.or(corner.x_unit).or(corner.unit);
+    let z = positions("height", z_unit, z, LARGEST_HEIGHT, USUAL_HEIGHT);
+    let own = x_unit;
     let x = if stations_are_numbers {
         own.unwrap_or(offsets)
     } else {
@@ -159,20 +187,62 @@ fn beyond(y: Size, z: Size, x: Size, stations_are_numbers: bool) -> bool {
         && y.largest > 50.0 / USUAL_LENGTH * x.largest
 }
 
-/// Says when numbers cannot be of the unit that is declared for them.
-fn contradiction(what: &str, unit: Notation, size: Size, largest: f64, declared: bool, problems: &mut Problems) {
-    if !declared || size.plain == 0 {
-        return;
+/// Numbers of a kind that cannot be of the unit that is declared for them.
+struct Contradiction {
+    what: &'static str,
+    /// The key that states their unit.
+    key: &'static str,
+    unit: Notation,
+    size: Size,
+    /// No ship has larger ones \[m\].
+    largest: f64,
+    /// How large they are beside the other lengths of the table \[m\], where these can be.
+    usual: Option<f64>,
+}
+
+impl Contradiction {
+    /// Says so, with the unit that the numbers look like; where nothing tells it, with all that they can have.
+    fn report(&self, problems: &mut Problems) {
+        let Self { what, key, unit, size, largest, usual } = self;
+        let found = size.largest;
+        if size.plain == 0 {
+            return;
+        }
+        let smaller: &[Notation] = match unit {
+            Notation::Metres | Notation::Feet if unit.metres(found) > *largest => {
+                &[Notation::Millimetres, Notation::Centimetres]
+            }
+            Notation::Centimetres if unit.metres(found) > *largest => &[Notation::Millimetres],
+            Notation::Millimetres if found > 0.0 && found < SMALLEST_MILLIMETRES && size.decimals > 0 => {
+                &[Notation::Metres]
+            }
+            _ => return,
+        };
+        let mut fitting: Vec<Notation> =
+            smaller.iter().copied().filter(|unit| unit.metres(found) <= *largest).collect();
+        if let Some(usual) = usual {
+            let off = |unit: &Notation| (unit.metres(found) / usual).ln().abs();
+            fitting.sort_by(|a, b| off(a).total_cmp(&off(b)));
+            fitting.truncate(1);
+        }
+        let list = |of: &dyn Fn(&Notation) -> String| fitting.iter().map(of).collect::<Vec<_>>().join(" or ");
+        let message = format!(
+            "the largest {what} is {found}, which looks like {}, but the unit is {}",
+            list(&|unit| name(*unit).to_owned()),
+            unit.as_str()
+        );
+        let remedy = format!("Declare {}", list(&|unit| format!("{key} = \"{}\"", unit.as_str())));
+        problems.error("E305", FilePosition::FILE, message, &remedy);
     }
-    let found = size.largest;
-    if matches!(unit, Notation::Metres | Notation::Feet) && unit.metres(found) > largest {
-        let message =
-            format!("the largest {what} is {found}, which looks like millimetres, but the unit is {}", unit.as_str());
-        problems.error("E305", FilePosition::FILE, message, "Declare units = \"mm\"");
-    }
-    if unit == Notation::Millimetres && found > 0.0 && found < SMALLEST_MILLIMETRES && size.decimals > 0 {
-        let message = format!("the largest {what} is {found}, which looks like metres, but the unit is mm");
-        problems.error("E305", FilePosition::FILE, message, "Declare units = \"m\"");
+}
+
+/// A unit in full.
+fn name(unit: Notation) -> &'static str {
+    match unit {
+        Notation::Metres => "metres",
+        Notation::Centimetres => "centimetres",
+        Notation::Millimetres => "millimetres",
+        other => other.as_str(),
     }
 }
 

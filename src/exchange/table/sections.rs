@@ -1,6 +1,8 @@
 //! A table of offsets of sections given as lines of points.
 
 use super::fields::finish;
+use super::header::From;
+use super::numbering::ORIGINS;
 use super::outline::{Deck, Halves, branches, deviation, halves, keel_of};
 use super::problem::{FilePosition, Problems};
 use super::{ReadTable, TableProblem};
@@ -27,6 +29,10 @@ pub(super) struct Section {
 pub(super) enum XOrigin {
     /// From the after perpendicular.
     AfterPerpendicular,
+    /// From another point, positive forward: L_PP is known, or the ends of the sections are the perpendiculars.
+    Named(From),
+    /// The file does not say, and the conventions can.
+    Open,
     /// The file does not say.
     Unknown,
 }
@@ -127,7 +133,9 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
     }
     let shift = match origin {
         XOrigin::AfterPerpendicular => 0.0,
-        XOrigin::Unknown => place_after_perpendicular(&sections, &stated, &mut problems),
+        XOrigin::Named(from) => from_named(from, &sections, &stated, &mut problems),
+        XOrigin::Open => place_after_perpendicular(&sections, &stated, ORIGINS, &mut problems),
+        XOrigin::Unknown => place_after_perpendicular(&sections, &stated, "", &mut problems),
     };
     let stations = sections
         .into_iter()
@@ -182,12 +190,32 @@ fn check_order(sections: &mut [Section], problems: &mut Problems) {
     }
 }
 
+/// The distance by which x is moved forward \[m\] where it counts from a point that is named.
+fn from_named(from: From, sections: &[Section], stated: &StatedParticulars, problems: &mut Problems) -> f64 {
+    let (Some(first), Some(last)) = (sections.first(), sections.last()) else { return 0.0 };
+    let length = stated.length_between_perpendiculars;
+    let (shift, assumed) = match from {
+        From::AftPerpendicular => return 0.0,
+        From::ForePerpendicular => (length.unwrap_or(-first.x), "the aftermost section is taken as AP"),
+        From::Midship => (0.5 * length.unwrap_or(last.x - first.x), "the outermost sections are taken as AP and FP"),
+    };
+    let assumed = if length.is_some() { String::new() } else { format!(", and L_PP is not known: {assumed}") };
+    let message = format!("sections count from {}{assumed}; moved forward by {shift:.4} m", from.as_str());
+    problems.warning("W330", FilePosition::FILE, message, "");
+    shift
+}
+
 /// The distance by which x is moved forward, so that it counts from AP \[m\].
 ///
 /// A file whose aftermost section is within a fifth of the length of its origin counts from AP; one whose foremost is,
 /// from FP; one with its middle there, from amidships. Otherwise, and where no length is stated, AP is at the aftermost
 /// section.
-fn place_after_perpendicular(sections: &[Section], stated: &StatedParticulars, problems: &mut Problems) -> f64 {
+fn place_after_perpendicular(
+    sections: &[Section],
+    stated: &StatedParticulars,
+    remedy: &str,
+    problems: &mut Problems,
+) -> f64 {
     let (Some(first), Some(last)) = (sections.first(), sections.last()) else { return 0.0 };
     let (aft, forward) = (first.x, last.x);
     let near = 0.2 * (forward - aft);
@@ -203,6 +231,6 @@ fn place_after_perpendicular(sections: &[Section], stated: &StatedParticulars, p
     let moved = if shift.abs() > 0.0 { format!("; moved forward by {shift:.4} m") } else { String::new() };
     let message =
         format!("sections from {aft:.4} to {forward:.4} m forward of the file's origin, taken as {origin}{moved}");
-    problems.warning("W330", FilePosition::FILE, message, "");
+    problems.warning("W330", FilePosition::FILE, message, remedy);
     shift
 }

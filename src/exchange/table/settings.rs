@@ -15,7 +15,7 @@
 //! station_spacing = 2.1       # between station numbers
 //! spaces = 20                 # station numbers in Lpp
 //! waterline_spacing = 0.6     # between the numbers of WL 1, WL 2, ...
-//! buttock_spacing = 0.5       # between the numbers of Butt 1, Butt 2, ... of a table of lines
+//! buttock_spacing = 0.5       # between the numbers of Butt 1, Butt 2, ...
 //! Lpp = 62.0                  # B, T, D likewise
 //! separator = ";"             # , ; | tab blank
 //! decimal = ","               # , .
@@ -52,6 +52,7 @@
 pub(super) mod prose;
 
 use self::prose::Sentences;
+pub(super) use self::prose::spacing;
 use super::header::From;
 use super::problem::{Field, Problems};
 use crate::hull::{FeatureLine, Rows, StatedParticulars, TableLayout, TransomPlane};
@@ -200,6 +201,7 @@ impl Settings {
             };
             let (key, value) = (key.trim(), value.trim().trim_matches('"'));
             if key.is_empty() || value.is_empty() || key.contains(|c: char| !c.is_alphanumeric() && c != '_') {
+                self.prose(comment);
                 continue;
             }
             let place = Field { text: key.to_owned(), row: *row, column: 1 };
@@ -215,7 +217,7 @@ impl Settings {
                     let message = "not a convention of a table".to_owned();
                     problems.error("E311", &place, message, &format!("Did you mean {near}?"));
                 }
-                (None, None) => {}
+                (None, None) => self.prose(&comment.replace('_', " ")),
             }
         }
     }

@@ -18,7 +18,8 @@
 use super::assemble::{SAME, TableReader};
 use super::columns::{Column, column};
 use super::grid::{MOST_CELLS, MOST_LINES};
-use super::header::{Axis, Corner, Position, position, unit_of};
+use super::header::{Axis, Corner, Position, axis_of, plain_number, position, unit_of};
+use super::long::from_header;
 use super::numbering::{Breadths, origin};
 use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, ends_from_midship, units};
@@ -46,10 +47,19 @@ fn columns(header: &[Field]) -> Columns {
 
 /// Whether the first row has the columns of a tidy table.
 pub(super) fn is_tidy(rows: &[Vec<Field>]) -> bool {
-    rows.iter().find(|row| !row.is_empty()).is_some_and(|header| {
-        let columns = columns(header);
-        columns[2].is_some() && columns[3].is_some() && columns[4].is_some()
-    })
+    from_header(rows).iter().find(|row| !row.is_empty()).is_some_and(|header| is_header(header))
+}
+
+/// Whether a row names the kinds of curves with their heights and half-breadths.
+pub(super) fn is_header(row: &[Field]) -> bool {
+    let columns = columns(row);
+    columns[2].is_some() && columns[3].is_some() && columns[4].is_some()
+}
+
+/// What the numbers of a column of stations count.
+fn numbered_by(header: &[Field]) -> Axis {
+    let is_frame = |field: &Field| axis_of(field.trimmed()) == Some(Axis::Frame);
+    if header.iter().any(is_frame) { Axis::Frame } else { Axis::Station }
 }
 
 /// One row.
@@ -112,6 +122,7 @@ pub(super) fn read(
     problems: &mut Problems,
 ) -> Option<OffsetTable> {
     let blank = Field::default();
+    let rows = from_header(rows);
     let records = rows_of(rows, &blank, problems);
     let comma = form.decimal_comma;
     let header = rows.iter().find(|row| !row.is_empty())?;
@@ -127,12 +138,18 @@ pub(super) fn read(
     let positions: Vec<Position> = placed.iter().map(|(p, _)| *p).collect();
     let by_x = placed.iter().any(|(_, by_x)| *by_x);
     let corner = Corner {
-        rows: Some(if by_x { Axis::X } else { Axis::Station }),
+        rows: Some(if by_x { Axis::X } else { numbered_by(header) }),
         columns: Some(Axis::Waterline),
         unit: header.iter().find_map(|f| unit_of(f.trimmed())),
         ..Corner::default()
     };
-    let breadths = Breadths { largest: y.largest, ..Breadths::default() };
+    let mean = |curve: &str| {
+        let all: Vec<f64> =
+            records.iter().filter(|r| r.curve == curve).filter_map(|r| plain_number(r.x.trimmed())).collect();
+        (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+    };
+    let stem_is_beyond = mean("STEM").zip(mean("STERN")).map(|(stem, stern)| stem > stern);
+    let breadths = Breadths { largest: y.largest, stem_is_beyond, ..Breadths::default() };
     let origin = origin(settings, corner, &positions, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], origin.numbers, problems);
     let datum = ends_from_midship(origin.datum, settings, &positions, units.x, problems);

@@ -1,23 +1,28 @@
 //! The sheets of an XLSX workbook, as the rows of CSV files, and the text of a table as a workbook.
 //!
 //! A row that begins with `#` is a comment, as in CSV. Texts that are numbers with decimal commas are numbers. Formulas
-//! without stored values, dates and errors are refused, each kind in one line. In a workbook that is written, plain decimal numbers are
+//! without stored values, dates and errors are refused, each kind in one line. Units and words of number formats count as text
+//! beside the number; hidden rows and columns are left out as hidden sheets are. In a workbook that is written, plain decimal numbers are
 //! numbers, shown with their digits, and all else is text; the same table gives the same bytes.
 //!
 //! Cells are taken one by one, so that a sheet that claims a million rows costs nothing. Packed workbooks that say to
 //! hold more than [`MOST_UNPACKED`] bytes are refused; a workbook that lies about it is not recognised.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read as _};
 
-use calamine::{DataRef, Dimensions, Reader as _, SheetVisible, Xlsx};
+use calamine::{DataRef, Dimensions, Reader as _, SheetVisible, Style, Xlsx};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
 use zip::ZipArchive;
 
-use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
+use super::grid::{
+    Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS, has_hash_labels, is_hash_label,
+};
 use super::problem::{Field, FilePosition, Problems};
+use super::shown::{Around, hidden};
 use super::xlsx::{MOST_UNPACKED, Sheet};
 use crate::hull::TableForm;
-use crate::units::counted;
+use crate::units::{Notation, counted};
 
 /// Sum of the sizes that the directory of the archive states.
 fn unpacked(bytes: &[u8]) -> u64 {
@@ -92,8 +97,12 @@ pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>
     };
     let mut sheets = Vec::new();
     let mut cells = 0;
+    let hidden = hidden(bytes);
     for metadata in book.sheets_metadata().to_vec() {
         let merged = book.merge_cells_by_sheet_name(&metadata.name).unwrap_or_default();
+        let around = around(&mut book, &metadata.name);
+        let hidden = hidden.get(&metadata.name).cloned().unwrap_or_default();
+        let mut left = [BTreeSet::new(), BTreeSet::new()];
         // A sheet of a chart has no cells.
         let Ok(mut reader) = book.worksheet_cells_reader(&metadata.name) else { continue };
         let mut sheet = Sheet {
@@ -114,8 +123,15 @@ pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>
             };
             let (row, column) = (cell.pos.0 as usize, cell.pos.1 as usize);
             let mut field = Field { text: String::new(), row: row + 1, column: column + 1 };
+            let hides = hidden.hides(row + 1, column + 1);
+            if hides.contains(&true) {
+                // As those of hidden sheets, cells that nobody sees do not count.
+                left[0].extend(hides[0].then_some(row + 1));
+                left[1].extend(hides[1].then_some(column + 1));
+                continue;
+            }
             match text(&cell.value, cell.formula.is_some(), &field, &mut sheet.problems) {
-                Some(text) => field.text = text,
+                Some(text) => field.text = shown(&cell.value, around.get(&cell.pos)).unwrap_or(text),
                 None => continue,
             }
             if is_date(&cell.value) {
@@ -132,10 +148,12 @@ pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>
             }
             place(&mut sheet.grid, field, &mut cells, problems)?;
         }
+        left_out(&left, &mut sheet.problems);
         refuse_dates(&dates, &mut sheet);
         for range in merged {
             fill(&mut sheet.grid, range, &mut cells, problems)?;
         }
+        hidden.take_out(&mut sheet.grid);
         let is_filled = sheet.grid.rows.iter().flatten().any(|field| !field.is_blank());
         if is_filled || sheet.problems.any_errors() {
             comments(&mut sheet.grid);
@@ -149,6 +167,55 @@ pub(super) fn sheets(bytes: &[u8], problems: &mut Problems) -> Option<Vec<Sheet>
         return None;
     }
     Some(sheets)
+}
+
+/// What the number formats of the cells of a sheet show around their numbers, where they do.
+fn around(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> BTreeMap<(u32, u32), Around> {
+    let Ok(mut reader) = book.worksheet_cells_reader(sheet) else { return BTreeMap::new() };
+    let of_style = |style: &Style| Around::of(&style.number_format.as_ref()?.format_code);
+    let styles: Vec<Option<Around>> = reader.styles().iter().map(of_style).collect();
+    let mut found = BTreeMap::new();
+    if styles.iter().all(Option::is_none) {
+        return found;
+    }
+    // What cannot be read is told by the reader of the values.
+    while let Ok(Some((row, column, style))) = reader.next_style_id() {
+        found.extend(styles.get(style).cloned().flatten().map(|around| ((row, column), around)));
+        if found.len() > MOST_CELLS {
+            break;
+        }
+    }
+    found
+}
+
+/// A number with what its format shows around it.
+fn shown(value: &DataRef<'_>, around: Option<&Around>) -> Option<String> {
+    match value {
+        DataRef::Int(n) => Some(around?.text(*n as f64)),
+        DataRef::Float(n) => Some(around?.text(*n)),
+        _ => None,
+    }
+}
+
+/// Says which rows and columns with cells are left out because the sheet hides them.
+fn left_out([rows, columns]: &[BTreeSet<usize>; 2], problems: &mut Problems) {
+    let list = |numbers: &BTreeSet<usize>| numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    for (noun, numbers) in [("row", rows), ("column", columns)] {
+        if !numbers.is_empty() {
+            let message = format!(
+                "left out: {} that the sheet hides, {}",
+                counted(numbers.len(), &format!("{noun} with cells")),
+                list(numbers)
+            );
+            problems.warning("W332", FilePosition::FILE, message, "Show them in the workbook if they count");
+        }
+    }
+}
+
+/// Whether a text is a number, perhaps with the unit that its format shows.
+fn is_number(text: &str) -> bool {
+    let (number, unit) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
+    number.parse::<f64>().is_ok() && (unit.is_empty() || Notation::from_word(unit).is_some())
 }
 
 /// The text of a cell; none for an empty one, and for one that holds no text or number.
@@ -187,9 +254,8 @@ fn is_date(value: &DataRef<'_>) -> bool {
 
 /// Refuses dates among numbers, or below each other: they are no title.
 fn refuse_dates(dates: &[(usize, usize)], sheet: &mut Sheet) {
-    let is_number = |field: &&Field| field.text.trim().parse::<f64>().is_ok();
     for &(row, column) in dates {
-        let numbers = sheet.grid.rows[row].iter().filter(is_number).count();
+        let numbers = sheet.grid.rows[row].iter().filter(|field| is_number(&field.text)).count();
         let others = dates.iter().filter(|(r, c)| *r == row || *c == column).count();
         if numbers > 0 || others > 2 {
             let field = sheet.grid.rows[row][column].clone();
@@ -220,10 +286,9 @@ fn refuse_date(field: &Field, problems: &mut Problems) {
 fn fill(grid: &mut Grid, range: Dimensions, cells: &mut usize, problems: &mut Problems) -> Option<()> {
     let [(top, left), (bottom, right)] = [range.start, range.end].map(|(row, column)| (row as usize, column as usize));
     let text = grid.rows.get(top).and_then(|row| row.get(left)).map(|field| field.text.clone()).unwrap_or_default();
-    let is_number = |field: &&Field| field.text.trim().parse::<f64>().is_ok();
     // A number beside a name, above the table, is no offset.
-    let numbers = grid.rows.get(top).map_or(0, |row| row.iter().filter(is_number).count());
-    let is_offset = text.trim().parse::<f64>().is_ok() && (bottom > top || numbers > 1);
+    let numbers = grid.rows.get(top).map_or(0, |row| row.iter().filter(|field| is_number(&field.text)).count());
+    let is_offset = is_number(&text) && (bottom > top || numbers > 1);
     if !is_offset || bottom >= MOST_ROWS || right >= MOST_COLUMNS {
         return Some(());
     }
@@ -271,7 +336,13 @@ fn points(grid: &mut Grid, problems: &mut Problems) {
 
 /// Takes the rows that begin with `#` out, as comments.
 fn comments(grid: &mut Grid) {
-    for row in &mut grid.rows {
+    let lines: Vec<String> =
+        grid.rows.iter().map(|row| row.iter().map(|f| f.text.as_str()).collect::<Vec<_>>().join(";")).collect();
+    let labels = has_hash_labels(lines.iter().map(String::as_str));
+    for (row, line) in grid.rows.iter_mut().zip(&lines) {
+        if labels && is_hash_label(line) {
+            continue;
+        }
         if let Some(comment) = row.first().and_then(|field| field.text.trim_start().strip_prefix('#')) {
             grid.comments.push((row[0].row, comment.trim().to_owned()));
             row.clear();

@@ -7,6 +7,7 @@
 use super::around::says_full;
 use super::boat_rows;
 use super::header::{side_name, unit_of};
+use super::numbering::OVERHANG;
 use super::tidy;
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Rows, SideKind, SideLine, StationDatum, StationOffsets, TableForm,
@@ -46,6 +47,8 @@ pub struct WrittenTable {
     pub text: String,
     /// What rounding did.
     pub rounding: Rounding,
+    /// Whether units, layout and positions are those of the file that was read, so that its conventions hold.
+    pub is_alike: bool,
 }
 
 /// Digits that a notation is given when a table is turned into it: a tenth of a millimetre, or whole millimetres.
@@ -68,9 +71,16 @@ fn stays(line: &str, separator: char) -> bool {
             let known = super::settings::KEYS.iter().any(|k| k.eq_ignore_ascii_case(key));
             !known || ["name", "Lpp", "B", "T", "D"].iter().any(|k| k.eq_ignore_ascii_case(key))
         }
-        Some(None) => true,
-        None => !line.trim_end_matches(separator).contains(separator) && !says_full(line),
+        Some(None) => says_nothing(line),
+        None => says_nothing(line) && !line.trim_end_matches(separator).contains(separator) && !says_full(line),
     }
+}
+
+/// Whether a sentence says nothing of positions: the new ones are lengths from AP.
+fn says_nothing(line: &str) -> bool {
+    let mut settings = super::settings::Settings::default();
+    settings.prose(line.trim_start_matches('#').trim());
+    settings == super::settings::Settings::default()
 }
 
 /// Whether a table has sections of points and neither half-breadths at waterlines nor heights at buttocks.
@@ -125,12 +135,12 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         (writing.layout, writing.notation, form.layout, form.program)
         && let Some(written) = super::formats::write(table, program)
     {
-        return written;
+        return WrittenTable { is_alike: false, ..written };
     }
     if let (None, None, false) = (writing.layout, writing.notation, form.boat_lines.is_empty())
         && let Some(written) = boat_table(table)
     {
-        return written;
+        return WrittenTable { is_alike: false, ..written };
     }
     let layout = match writing.layout.unwrap_or(form.layout) {
         TableLayout::Tidy => TableLayout::Tidy,
@@ -152,7 +162,8 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         (form.notation, form.x_notation, form.z_notation) = (notation, notation, notation);
         form.decimals = usual_decimals(notation);
     }
-    if renotated || layout != form.layout {
+    let is_alike = !renotated && layout == form.layout;
+    if !is_alike {
         // The headers of the file speak of other units or of another layout, and its conventions may not go with the new
         // file: positions become lengths from AP. Station numbers become names.
         let named = |columns: &[SideLine]| columns.iter().any(|side| side.kind == SideKind::Name);
@@ -188,6 +199,9 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         if layout == TableLayout::Tidy && form.layout == TableLayout::Other {
             form.preamble = stated_lines(table);
         }
+        if is_far_aft(table) {
+            form.preamble.push("# stations = from AP".to_owned());
+        }
         for side in form.side_columns.iter_mut().chain(&mut form.side_rows).chain(&mut form.buttock_columns) {
             if side.kind != SideKind::Name {
                 side.texts.clear();
@@ -203,7 +217,14 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
     let own = !renotated && (form.full_breadths, form.negative) == (table.form.full_breadths, table.form.negative);
     let mut writer = Writer { form, own, rounding: Rounding::default(), squares: 0.0 };
     let records = if layout == TableLayout::Tidy { tidy::records(table, &mut writer) } else { writer.matrix(table) };
-    writer.table(&records)
+    WrittenTable { is_alike, ..writer.table(&records) }
+}
+
+/// Whether stations lie so far aft of AP that their distances alone would be taken from another point.
+fn is_far_aft(table: &OffsetTable) -> bool {
+    let (Some(first), Some(last)) = (table.stations.first(), table.stations.last()) else { return false };
+    let [aft, fore] = [first.station.x.min(0.0), last.station.x.max(0.0)];
+    -aft > OVERHANG * (fore - aft)
 }
 
 /// A table of lines of a boat as it was read; none where its sections have other points than its lines.
@@ -493,7 +514,7 @@ impl Writer {
     fn table(&self, records: &[Vec<String>]) -> WrittenTable {
         let mut rounding = self.rounding;
         rounding.root_mean_square = (self.squares / (rounding.cells.max(1)) as f64).sqrt();
-        WrittenTable { text: self.text(records), rounding }
+        WrittenTable { text: self.text(records), rounding, is_alike: true }
     }
 
     /// The file of the records.

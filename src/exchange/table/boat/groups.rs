@@ -109,7 +109,7 @@ fn group_of_cut(label: &Field) -> Option<Group> {
     match axis_of(label.trimmed()).filter(|_| position(label.trimmed(), false).is_ok())? {
         Axis::Waterline => Some(Group::HalfBreadths),
         Axis::Buttock => Some(Group::Heights),
-        Axis::X | Axis::Station => None,
+        Axis::X | Axis::Station | Axis::Frame => None,
     }
 }
 

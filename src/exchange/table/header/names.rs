@@ -182,3 +182,9 @@ pub(in crate::exchange::table) fn is_aftward(text: &str) -> bool {
     };
     (contains(&AFT) || words.windows(2).any(is_aft)) && !contains(&FORWARD)
 }
+
+/// Whether a corner names a breadth over both directions: `y(x,z)`, `B(x, z)`.
+pub(super) fn is_function(text: &str) -> bool {
+    let close: String = text.to_lowercase().chars().filter(|c| !c.is_whitespace()).collect();
+    close.split_once('(').is_some_and(|(_, inside)| inside.starts_with("x,z)") || inside.starts_with("z,x)"))
+}

@@ -12,8 +12,12 @@ use crate::units::parse_length;
 pub(in crate::exchange::table) struct Sentences {
     /// Distance from one station number to the next \[m\].
     pub(in crate::exchange::table) spacing: Option<(f64, String)>,
+    /// Distance from one frame to the next \[m\].
+    pub(in crate::exchange::table) frames: Option<(f64, String)>,
     /// Distance from one number of a waterline to the next \[m\].
     pub(in crate::exchange::table) waterlines: Option<(f64, String)>,
+    /// Distance from one number of a buttock to the next \[m\].
+    pub(in crate::exchange::table) buttocks: Option<(f64, String)>,
     pub(in crate::exchange::table) stations: Option<(StationScale, String)>,
     /// The end from which stations count, by numbers or by distances.
     pub(in crate::exchange::table) end: Option<(From, String)>,
@@ -21,17 +25,26 @@ pub(in crate::exchange::table) struct Sentences {
     pub(in crate::exchange::table) spaces: Option<f64>,
 }
 
+impl Sentences {
+    /// Whether a sentence says from where stations count.
+    pub(in crate::exchange::table) fn names_end(&self) -> bool {
+        self.stations.is_some() || self.end.is_some()
+    }
+}
+
 impl Settings {
     /// Takes what sentences say of lines: "Stations 3 ft apart", "Station spacing: 5 m", "Stations are numbered from the forward
-    /// perpendicular", "station 0 is at FP", "x from FP", "Waterline spacing 0.5 m".
+    /// perpendicular", "station 0 is at FP", "x from FP", "Stations measured from the stem", "Waterline spacing 0.5 m".
     pub(in crate::exchange::table) fn prose(&mut self, comment: &str) {
         for sentence in sentences(comment) {
-            let lower = sentence.to_lowercase().replace("f.p.", "fp").replace("a.p.", "ap");
+            let lower = spoken(sentence);
             let words = || comment.trim().to_owned();
             let known = &mut self.sentences;
             let apart = |names: &[&str]| spacing(&lower, names).map(|found| (found, words()));
             known.spacing = known.spacing.take().or_else(|| apart(&["station", "stations"]));
+            known.frames = known.frames.take().or_else(|| apart(&["frame", "frames"]));
             known.waterlines = known.waterlines.take().or_else(|| apart(&["waterline", "waterlines", "wl"]));
+            known.buttocks = known.buttocks.take().or_else(|| apart(&["buttock", "buttocks"]));
             if let Some((number, end)) = numbered_end(&lower).filter(|(number, _)| *number > 0.0) {
                 known.spaces = known.spaces.or(Some(number));
                 let from =
@@ -53,6 +66,13 @@ impl Settings {
             }
         }
     }
+}
+
+/// A sentence in small letters, with the perpendiculars in one writing.
+fn spoken(sentence: &str) -> String {
+    let writings =
+        [("f.p.", "fp"), ("a.p.", "ap"), ("f. p.", "fp"), ("a. p.", "ap"), ("lpp/2", "midship"), ("l/2", "midship")];
+    writings.iter().fold(sentence.to_lowercase(), |text, (written, plain)| text.replace(written, plain))
 }
 
 /// The sentences of a text: they end with semicolons, and with points before capital letters.
@@ -111,8 +131,48 @@ fn end(words: &[&str]) -> Option<From> {
     From::of(word).or_else(|| From::end_of(word))
 }
 
-/// Words for stations that have numbers.
-const STATIONS: [&str; 9] = ["station", "stations", "ordinate", "ordinates", "section", "sections", "stn", "sta", "st"];
+/// Words for stations, which have numbers or distances.
+const STATIONS: [&str; 11] =
+    ["station", "stations", "ordinate", "ordinates", "section", "sections", "stn", "sta", "st", "frame", "frames"];
+
+/// Words for distances: these anywhere in a sentence, and others at its beginning.
+const DISTANCES: [&str; 4] = ["x", "distances", "positions", "abscissae"];
+const DISTANCE: [&str; 2] = ["distance", "position"];
+
+/// Words between what counts and the point from which it does: "Stations are measured in metres from".
+const FILLING: [&str; 31] = [
+    "is",
+    "are",
+    "as",
+    "in",
+    "the",
+    "of",
+    "and",
+    "m",
+    "mm",
+    "ft",
+    "metres",
+    "meters",
+    "millimetres",
+    "feet",
+    "measured",
+    "given",
+    "taken",
+    "counted",
+    "reckoned",
+    "counting",
+    "count",
+    "run",
+    "positive",
+    "longitudinal",
+    "distances",
+    "positions",
+    "stations",
+    "sections",
+    "frames",
+    "along",
+    "ship",
+];
 
 /// The number of a station and the perpendicular at which a sentence puts it: "station 0 is at FP", "Station 20 = AP".
 fn numbered_end(lower: &str) -> Option<(f64, From)> {
@@ -131,21 +191,35 @@ fn counted_from(lower: &str) -> Option<StationScale> {
     }
     let words = words(lower);
     let after = |word: &str| words.iter().position(|own| *own == word).map(|at| &words[at + 1..]);
-    let starts = |any: &[&str]| words.first().is_some_and(|first| any.contains(first));
     let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
     if has(&STATIONS) && has(&["numbered"]) {
         let from = after("from").and_then(end)?;
         return Some(StationScale { from, numbers: true });
     }
     // "x from FP, positive aft", "Distances from the stem", "Distance aft of FP", "Origin at FP"; not "Distance from FP to AP".
-    let from = if starts(&["x", "distance", "distances", "positions", "abscissae"]) {
-        from_end(&words[1..])?
-    } else if starts(&["origin"]) && words.get(1) == Some(&"at") {
-        end(&words[2..])?
-    } else {
-        return None;
-    };
+    let is_distance = |at: usize| DISTANCES.contains(&words[at]) || at == 0 && DISTANCE.contains(&words[0]);
+    let from = behind(&words, is_distance).or_else(|| origin(&words))?;
     Some(StationScale { from, numbers: false })
+}
+
+/// The point in "Origin at FP", "origin of x: FP", "x = 0 at FP".
+fn origin(words: &[&str]) -> Option<From> {
+    let is_zero = |pair: &[&str]| pair[0] == "x" && pair[1] == "0";
+    let origin = words.iter().position(|word| *word == "origin").map(|at| at + 1);
+    let at = origin.or_else(|| words.windows(2).position(is_zero).map(|at| at + 2))?;
+    let filling = ["of", "x", "is", "at", "stations", "for", "distances"];
+    let rest = &words[at..];
+    end(&rest[rest.iter().take_while(|word| filling.contains(*word)).count()..])
+}
+
+/// The end of the hull from which words count that `is_subject` finds, with nothing but filling words between.
+fn behind(words: &[&str], is_subject: impl Fn(usize) -> bool) -> Option<From> {
+    let after = |at: usize| {
+        let rest = &words[at + 1..];
+        let filling = rest.iter().take_while(|word| FILLING.contains(*word)).count();
+        (0..=filling).find_map(|k| from_end(&rest[k..]))
+    };
+    (0..words.len()).filter(|&at| is_subject(at)).find_map(after)
 }
 
 /// The end of the hull in "from FP", "aft of midship"; none in "from FP to AP".
@@ -160,15 +234,22 @@ fn from_end(words: &[&str]) -> Option<From> {
 /// The end in "Stations from FP", which may be distances or numbers.
 fn stations_from(lower: &str) -> Option<From> {
     let words = words(lower);
-    let (first, rest) = words.split_first()?;
-    STATIONS.contains(first).then(|| from_end(rest)).flatten()
+    let starts = words.first().is_some_and(|word| matches!(*word, "measured" | "counted"));
+    let from = if starts { from_end(&words[1..]) } else { None };
+    from.or_else(|| behind(&words, |at| STATIONS.contains(&words[at])))
 }
+
+/// Lines are no farther apart \[m\]; larger bare numbers are millimetres.
+const FARTHEST: f64 = 40.0;
 
 /// The distance between lines of these names in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in".
 pub(in super::super) fn spacing(lower: &str, names: &[&str]) -> Option<f64> {
     let length = |words: &[&str]| {
         let text = words.join(" ");
-        parse_length(text.trim_end_matches('.')).ok().filter(|l| *l > 0.0 && l.is_finite())
+        let text = text.trim_end_matches('.');
+        let in_millimetres = plain_number(text).is_some_and(|number| number > FARTHEST);
+        let length = parse_length(text).ok().filter(|l| *l > 0.0 && l.is_finite());
+        length.map(|length| if in_millimetres { 1e-3 * length } else { length })
     };
     let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
     if let Some((before, _)) = lower.split_once(" apart") {
