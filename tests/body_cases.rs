@@ -243,6 +243,19 @@ fn faces_of_cad_files_displace_what_is_inside_them() {
     assert!(!notes.iter().any(|note| note.starts_with('W')), "{notes:?}");
 }
 
+/// A ring that a vertex bounds, a ball on a box with a vertex beside the hole of its loop, and one whose loop passes both poles.
+/// The last as other readers measure it.
+#[test]
+fn closed_surfaces_have_loops_that_are_points_or_holes() {
+    use std::f64::consts::PI;
+    let cases =
+        [("ring-vertex.step", 10.0, 32.0 * PI * PI), ("bulb-vertex.step", 4.0, 2400.0 + 9.0 * PI), ("bulb-aft.igs", 2.0, 1209.21)];
+    for (name, draught, volume) in cases {
+        let found = row(name, draught).unwrap_or_else(|error| panic!("{name}: {error}")).displacement_volume;
+        assert!((found - volume).abs() <= 2e-5 * volume, "{name}: {found}, expected {volume}");
+    }
+}
+
 /// A round pontoon, open at both ends of 48 sides, lying or upright: a lying one ends in a transom and a flat bow, an upright one
 /// has no bottom.
 #[test]
