@@ -243,6 +243,24 @@ fn faces_of_cad_files_displace_what_is_inside_them() {
     assert!(!notes.iter().any(|note| note.starts_with('W')), "{notes:?}");
 }
 
+#[track_caller]
+fn displaces(name: &str, draught: f64, volume: f64) {
+    let found = row(name, draught).unwrap_or_else(|error| panic!("{name}: {error}")).displacement_volume;
+    assert!((found - volume).abs() <= 2e-5 * volume, "{name}: {found}, expected {volume}");
+}
+
+/// A ball on a box, with a vertex beside the hole of its loop, and one whose loop passes both poles, as other readers measure it.
+#[test]
+fn balls_have_loops_that_are_points_or_holes() {
+    displaces("bulb-vertex.step", 4.0, 2400.0 + 9.0 * std::f64::consts::PI);
+    displaces("bulb-aft.igs", 3.0, 1_819.104_484);
+}
+
+#[test]
+fn a_ring_may_have_no_edges() {
+    displaces("ring-vertex.step", 10.0, 32.0 * std::f64::consts::PI.powi(2));
+}
+
 /// A round pontoon, open at both ends of 48 sides, lying or upright: a lying one ends in a transom and a flat bow, an upright one
 /// has no bottom.
 #[test]

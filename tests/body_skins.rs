@@ -263,3 +263,68 @@ fn a_block_beside_the_centreplane_leaves_a_hull_whole() {
     let house = block([0.0, 0.0, 6.0], [60.0, 5.0, 8.0]);
     displaces("house", &[block(HULL[0], HULL[1]), house].concat(), 3.0, [1800.0, 600.0]);
 }
+
+/// Without deck and transom, the transom raked by 4 m; with slits and holes in the sides; above the rim of a deck that is missing.
+#[test]
+fn a_skin_whose_integrals_disagree_is_named_or_refused() {
+    let said = |name: &str, triangles: &[Triangle], draughts: &str| {
+        let output = program(&["hydro", &written(name, triangles).display().to_string(), "--draughts", draughts]);
+        (output.status.code(), stderr(&output))
+    };
+    let raked = |p: Point| -> Point { [if p[0] > 0.0 { p[0] } else { 4.0 * (1.0 - p[2] / 6.0) }, p[1], p[2]] };
+    let [_, bow, starboard, port, bottom, _] =
+        sides(HULL, [[6, 6]; 6]).map(|side| side.into_iter().map(|t| t.map(raked)));
+    let open: Vec<Triangle> = bow.chain(starboard).chain(port).chain(bottom).collect();
+    displaces("raked", &open, 3.0, [1710.0, 580.0]);
+    let (code, message) = said("raked", &open, "1,2,3,5");
+    assert!(code == Some(0) && message.contains("W351") && !message.contains("W355"), "{message}");
+    // One cell of 60 of a side; a column of them on both sides.
+    let whole = sides(HULL, [[6, 10], [6, 10], [60, 6], [6, 60], [6, 6], [6, 6]]).concat();
+    let without = |is_out: &dyn Fn(Point) -> bool| -> Vec<Triangle> {
+        let middle = |t: &Triangle| [0, 1, 2].map(|k: usize| (t[0][k] + t[1][k] + t[2][k]) / 3.0);
+        whole.iter().filter(|t| !is_out(middle(t))).copied().collect()
+    };
+    let slit = without(&|[x, y, z]| y > 4.99 && (1.0..2.0).contains(&z) && (30.0..31.0).contains(&x));
+    let (code, message) = said("one-cell", &slit, "4");
+    assert!(code == Some(0) && message.contains("W355"), "{message}");
+    assert!(message.contains("at 4.000 m the integrals over the skin differ by 0.2 % of the volume"), "{message}");
+    let hole = without(&|[x, y, z]| y.abs() > 4.99 && (1.0..3.0).contains(&z) && (20.0..30.0).contains(&x));
+    let (code, message) = said("holes", &hole, "4");
+    assert!(code == Some(3) && message.contains("E353") && message.contains("the skin is not closed"), "{message}");
+    // The deck is missing and the sheer falls to 4 m amidships.
+    let sheer = |p: Point| -> Point { [p[0], p[1], p[2] * (4.0 + 2.0 * (p[0] / 30.0 - 1.0).powi(2)) / 6.0] };
+    let sheered: Vec<Triangle> = whole.iter().filter(|t| t.iter().any(|p| p[2] < 6.0)).map(|t| t.map(sheer)).collect();
+    let (code, message) = said("sheer", &sheered, "1,2,3.9");
+    assert!(code == Some(0) && !message.contains("W355"), "{message}");
+    let (code, message) = said("sheer", &sheered, "1,2,5");
+    assert!(code == Some(0) && message.contains("the draught is above the rim of an open deck"), "{message}");
+}
+
+/// Sides that begin 8 mm above the bilge are skin, and a hollow body whose skins are 3 mm apart displaces what the outer one does.
+#[test]
+fn plates_beside_the_skin_are_no_sheets() {
+    let [aft, bow, starboard, port, bottom, _] = sides(HULL, [[1, 3], [3, 1], [1, 20], [20, 1], [6, 6], [6, 6]]);
+    let above = |side: Vec<Triangle>| {
+        side.into_iter().map(|t| t.map(|[x, y, z]: Point| [x, y, if z > 0.0 { z } else { 0.008 }])).collect::<Vec<_>>()
+    };
+    let parts = [aft, bow, above(starboard), above(port), bottom].concat();
+    let row = row("slits", &parts, 4.0).unwrap();
+    assert!((row.displacement_volume / 2400.0 - 1.0).abs() < 3e-3, "{}", row.displacement_volume);
+    let [_, high] = HULL;
+    let [_, _, _, _, _, lid] = sides(HULL, [[1, 1]; 6]);
+    assert!(lid.iter().flatten().all(|p| p[2] >= high[2]));
+    let outer = sides(HULL, [[1, 1]; 6])[..5].concat();
+    let inner = sides([[0.003, -4.997, 0.003], [59.997, 4.997, 6.0]], [[1, 1]; 6])[..5].concat();
+    let inner: Vec<Triangle> = inner.into_iter().map(|[a, b, c]| [a, c, b]).collect();
+    displaces("skins", &[outer, inner].concat(), 4.0, [2400.0, 600.0]);
+}
+
+/// A mast that is higher than its hull is long, and a house that is longer and broader than it.
+#[test]
+fn masts_and_houses_leave_a_hull_as_it_is() {
+    let hull = block(HULL[0], HULL[1]);
+    let mast = block([29.8, -0.2, 5.0], [30.2, 0.2, 80.0]);
+    displaces("mast", &[hull.clone(), mast].concat(), 3.0, [1800.0, 600.0]);
+    let house = block([-3.0, -7.0, 6.0], [63.0, 7.0, 9.0]);
+    displaces("wide-house", &[hull, house].concat(), 3.0, [1800.0, 600.0]);
+}

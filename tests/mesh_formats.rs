@@ -59,6 +59,46 @@ fn meshes_of_other_programs_have_their_volume() {
 }
 
 #[test]
+fn faces_may_stand_before_their_vertices() {
+    let box_of = |faces_first: bool| {
+        let vertices = "element vertex 8\nproperty float nx\nproperty double x\nproperty uchar red\nproperty double y\nproperty double z\n";
+        let faces = "element edge 1\nproperty int from\nproperty int to\nelement face 6\nproperty uchar flag\n\
+                     property list uchar int vertex_indices\nproperty list uchar float texture\n";
+        let points: String =
+            (0..8).map(|k| format!("0 {} 7 {} {}\n", 60 * (k >> 2), 10 * (k >> 1 & 1) - 5, 6 * (k & 1))).collect();
+        let list = ["0 1 3 2", "4 6 7 5", "0 4 5 1", "2 3 7 6", "0 2 6 4", "1 5 7 3"];
+        let rows: String = list.iter().map(|face| format!("1 4 {face} 2 0.5 0.25\n")).collect();
+        let rows = format!("0 1\n{rows}");
+        let (head, body) = if faces_first {
+            (format!("{faces}{vertices}"), rows + &points)
+        } else {
+            (format!("{vertices}{faces}"), points + &rows)
+        };
+        format!("ply\nformat ascii 1.0\n{head}end_header\n{body}")
+    };
+    for faces_first in [false, true] {
+        let body = read_body("a.ply", box_of(faces_first).as_bytes(), None).unwrap().unwrap();
+        let found = body.meshes[0].report().volume;
+        assert!((found - 3600.0).abs() < 1e-9, "{faces_first}: {found}");
+    }
+    let outside = box_of(true).replace("1 4 0 1 3 2", "1 4 0 1 3 9");
+    let refused = read_body("a.ply", outside.as_bytes(), None).unwrap().unwrap_err();
+    assert!(refused[0].message.contains("no vertex; there are 8"), "{}", refused[0].message);
+}
+
+/// A block of 3600 m3 with others that are not printed, of type `other` and of type `surface`.
+#[test]
+fn objects_of_a_package_that_are_no_model_are_left_out_and_named() {
+    let body = read("left-out.3mf").unwrap();
+    let found = body.meshes[0].report().volume;
+    assert!((found - 3600.0).abs() < 1e-9, "{found}");
+    let notes: Vec<String> = body.notes.iter().map(ToString::to_string).collect();
+    for why in ["1 object, not printed", "1 object, of type other", "1 object, of type surface"] {
+        assert!(notes.iter().any(|note| note.contains("W352") && note.contains(why)), "{notes:?}");
+    }
+}
+
+#[test]
 fn what_is_not_read_of_a_mesh_is_named() {
     let refused = |name: &str| read(name).unwrap_err().iter().map(|p| p.message.clone()).collect::<Vec<_>>().join("; ");
     assert!(refused("hull-lzma.vtp").contains("vtkLZMADataCompressor"), "{}", refused("hull-lzma.vtp"));

@@ -166,6 +166,15 @@ fn loose_surfaces_count_once_and_without_sheets() {
     assert!(numbered.contains("E311 parts: surfaces that nothing trims have no numbers"), "{numbered}");
 }
 
+/// A barge with two wing tanks and a double bottom, all of loose patches: walls in common are walls of both.
+#[test]
+fn tanks_of_patches_that_share_walls_with_the_hull_add_nothing() {
+    let body = read_hydrostatic_body(&carried("tests/rhino/tanks-v8.3dm")).unwrap();
+    let row = body.curves_of_form(&[3.0], &Conventions::default()).unwrap().0.rows.remove(0);
+    let found = [row.displacement_volume, row.waterplane_area];
+    assert!((found[0] - 1800.0).abs() < 1e-6 && (found[1] - 600.0).abs() < 1e-6, "{found:?}");
+}
+
 #[test]
 fn what_is_not_read_is_refused_by_its_kind() {
     let refused = |name: &str, beside: &str| said(&read(name, beside).unwrap_err());

@@ -64,4 +64,4 @@ pub use subdivision::{NetEdge, NetFace, NetLayer, NetPointKind, SubdivisionNet};
 pub use table_form::{
     Kept, Order, Program, Rows, SideKind, SideLine, StationDatum, TableForm, TableLayout, WrittenLine, WrittenPoint,
 };
-pub use triangles::{BodyPart, DrySkin, InnerShells, MeshLine, TriangleMesh, triangle_area};
+pub use triangles::{BodyPart, DrySkin, InnerShells, MeshLine, TriangleMesh, cover, lines_of_edges, triangle_area};

@@ -7,11 +7,13 @@
 
 mod boxes;
 mod flood;
+mod openings;
 mod rims;
 mod shells;
 mod surfaces;
 
 pub use flood::DrySkin;
+pub use openings::{cover, lines_of_edges};
 pub use shells::InnerShells;
 pub(super) use surfaces::{Bends, corners};
 
@@ -111,6 +113,26 @@ impl TriangleMesh {
             self.vertices.iter().fold(first, |ends, point| [0, 1, 2].map(|k| pick(ends[k], point[k])))
         };
         Some([fold(f64::min), fold(f64::max)])
+    }
+
+    /// How far the skin lies from its middle along the axes, root mean square by area \[m\].
+    ///
+    /// Of a triangle with the coordinates a, b, c: int x dA / A = (a + b + c)/3, int x^2 dA / A =
+    /// (a^2 + b^2 + c^2 + (a + b + c)^2)/12.
+    #[must_use]
+    pub fn deviations(&self) -> [f64; 3] {
+        let (mut area, mut first, mut second) = (0.0, [0.0; 3], [0.0; 3]);
+        for corners in self.corners() {
+            let own = triangle_area(corners);
+            area += own;
+            for k in 0..3 {
+                let [a, b, c] = corners.map(|corner| corner[k]);
+                let sum = a + b + c;
+                first[k] += own * sum / 3.0;
+                second[k] += own * (a * a + b * b + c * c + sum * sum) / 12.0;
+            }
+        }
+        [0, 1, 2].map(|k: usize| (second[k] / area - (first[k] / area).powi(2)).max(0.0).sqrt())
     }
 
     /// Checks closure and measures.

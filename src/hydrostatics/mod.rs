@@ -24,3 +24,4 @@ pub use quantity::{QUANTITIES, Quantity};
 pub use row::{Hydrostatics, LEAST_GM};
 pub use skin::{wetted_surface, wetted_surface_gradient};
 pub use table::CurvesOfForm;
+pub use triangles::closure::{Unclosed, unclosed};

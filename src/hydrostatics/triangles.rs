@@ -17,6 +17,8 @@
 //! halved, and their sums are extrapolated. The largest section is the largest of [`STATIONS`] sections, with a
 //! parabola through its neighbours.
 
+pub(super) mod closure;
+
 use super::conventions::Conventions;
 use super::row::Hydrostatics;
 use super::sections::Sections;

@@ -9,7 +9,9 @@ use super::verdict::{is_warning, without_folder};
 use crate::config::{Diagnostic, Severity};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{AFLOAT, AT_EDGE, Hull, HullError, PrincipalParticulars, TriangleMesh};
-use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Given, Hydrostatics, default_draughts};
+use crate::hydrostatics::{
+    Assumed, Conventions, CurvesOfForm, Given, Hydrostatics, Unclosed, default_draughts, unclosed,
+};
 
 /// Part of the height of a body by which its lowest point may be from the base line.
 const AT_BASE: f64 = 0.2;
@@ -25,6 +27,8 @@ pub struct HydrostaticBody {
     body: BodyShape,
     /// What its triangles leave its surface by at most \[m\].
     deviation: f64,
+    /// Whether these are over surfaces that may reach over each other.
+    loose: bool,
     /// Its main dimensions; of a body of triangles as far as they are stated, else its extents.
     pub particulars: PrincipalParticulars,
     /// Conventions of its tables.
@@ -39,6 +43,12 @@ enum BodyShape {
     /// Of surfaces twice, the second time finer.
     Triangles(Vec<TriangleMesh>),
 }
+
+/// Draughts of a table at which the skin is looked at.
+const LOOKED_AT: usize = 3;
+
+/// What integrals over a skin differ by, from which it is refused.
+const REFUSED: f64 = 1e-2;
 
 impl HydrostaticBody {
     /// The hull; none of a body of triangles.
@@ -125,6 +135,12 @@ impl HydrostaticBody {
                 "The skin is counted twice, turned over, or has walls or tanks inside it: give the outer skin alone";
             return Err(Failure::Input(vec![problem("E353", &self.path, format!("{first}{more}"), remedy)]));
         }
+        let unclosed = self.unclosed(draughts);
+        if let Some(fault) =
+            unclosed.iter().find(|found| !found.above_rim && found.volume.max(found.waterplane) > REFUSED)
+        {
+            return Err(Failure::Input(vec![problem("E353", &self.path, contradicts(fault), OF_SKIN)]));
+        }
         let [least, greatest] = bounds;
         let above = |row: &Hydrostatics| {
             let extents = [greatest[0] - least[0], greatest[1] - least[1], row.draught - least[2]];
@@ -138,8 +154,25 @@ impl HydrostaticBody {
             let message = format!("coefficients are above 1: {found}");
             Diagnostic { severity: Severity::Warning, ..problem("W353", &self.path, message, dimensions) }
         });
-        let warnings = warnings.into_iter().chain(self.unusual(&table)).map(|warning| warning.to_string());
+        let worst = unclosed
+            .iter()
+            .max_by(|a, b| a.volume.max(a.waterplane).total_cmp(&b.volume.max(b.waterplane)))
+            .map(|found| problem("W355", &self.path, contradicts(found), OF_SKIN))
+            .map(|problem| Diagnostic { severity: Severity::Warning, ..problem });
+        let warnings = warnings.into_iter().chain(worst).chain(self.unusual(&table)).map(|warning| warning.to_string());
         Ok((table, warnings.collect()))
+    }
+
+    /// What the integrals over the skin contradict at some of the draughts; nothing of a hull, whose faces are implied.
+    fn unclosed(&self, draughts: &[f64]) -> Vec<Unclosed> {
+        let BodyShape::Triangles(meshes) = &self.body else { return Vec::new() };
+        let Some(mesh) = meshes.last().filter(|_| !self.loose) else { return Vec::new() };
+        let mut sorted: Vec<f64> = draughts.iter().copied().filter(|draught| draught.is_finite()).collect();
+        sorted.sort_by(f64::total_cmp);
+        sorted.dedup();
+        let count = sorted.len().min(LOOKED_AT);
+        let chosen = (1..=count).map(|k| sorted[k * sorted.len() / count - 1]);
+        chosen.filter_map(|draught| unclosed(mesh, draught)).collect()
     }
 
     /// What hardly any ship has at the design draught, in the row that is near it; where no draught is stated, in that of
@@ -180,6 +213,20 @@ impl HydrostaticBody {
             }
         }
     }
+}
+
+/// What to do about a skin that is not closed.
+const OF_SKIN: &str =
+    "Close the skin below the draught, and give it alone, turned outward. Deck, transom and flat bow may be missing";
+
+/// What integrals over a skin contradict, in words.
+fn contradicts(Unclosed { draught, volume, waterplane, above_rim }: &Unclosed) -> String {
+    let why =
+        if *above_rim { "the draught is above the rim of an open deck" } else { "the skin is not closed or not one" };
+    let [volume, waterplane] = [volume, waterplane].map(|off| 100.0 * off);
+    format!(
+        "at {draught:.3} m the integrals over the skin differ by {volume:.1} % of the volume and {waterplane:.1} % of the waterplane: {why}"
+    )
 }
 
 fn of_meshes(
@@ -228,7 +275,7 @@ pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<
     let body = BodyShape::Hull(Box::new(source.hull));
     let path = path.to_owned();
     let (conventions, notes) = (source.conventions, source.notes);
-    Ok(HydrostaticBody { path, body, deviation: 0.0, particulars, conventions, notes })
+    Ok(HydrostaticBody { path, body, deviation: 0.0, loose: false, particulars, conventions, notes })
 }
 
 /// The same with a design draught \[m\] above the base line, over that of the file.
@@ -279,6 +326,6 @@ fn of_body(path: &Path, read: ReadBody) -> HydrostaticBody {
             particulars.length_between_perpendiculars
         ));
     }
-    let (path, deviation) = (path.to_owned(), read.deviation);
-    HydrostaticBody { path, body: BodyShape::Triangles(read.meshes), deviation, particulars, conventions, notes }
+    let (path, deviation, loose) = (path.to_owned(), read.deviation, read.loose);
+    HydrostaticBody { path, body: BodyShape::Triangles(read.meshes), deviation, loose, particulars, conventions, notes }
 }

@@ -1,6 +1,6 @@
 //! PLY (G. Turk, The Stanford Repository, 1994): a header of elements with their properties, then the elements, as text or
 //! as bytes of either order. Of vertices x, y and z are read, of faces the list of their vertices, of strips of triangles
-//! the list of theirs, where -1 begins another.
+//! the list of theirs, where -1 begins another. Elements stand in the order of the header, faces before vertices too.
 
 use std::fmt::Write as _;
 
@@ -56,7 +56,11 @@ pub(in super::super) fn read_ply(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
     let (mut numbers, mut mesh) = (Numbers::of(bytes), Polygons::default());
     if let Some((coding, elements)) = header(&mut numbers) {
         numbers.coding = coding;
-        let _ = elements.iter().try_for_each(|element| read(element, &mut numbers, &mut mesh));
+        let mut faces = Faces { waiting: elements.iter().any(|element| element.name == "vertex").then(Vec::new) };
+        let _ = elements.iter().try_for_each(|element| {
+            read(element, &mut numbers, &mut mesh, &mut faces)?;
+            if element.name == "vertex" { faces.release(&mut numbers, &mut mesh) } else { Some(()) }
+        });
     }
     mesh.finish(numbers.faults)
 }
@@ -107,8 +111,43 @@ fn header(numbers: &mut Numbers<'_>) -> Option<(Coding, Vec<Element>)> {
     Some((coding?, elements))
 }
 
+/// Vertices of a face, or of a strip of triangles, and its line.
+struct Face {
+    line: Option<usize>,
+    places: Vec<usize>,
+    is_strip: bool,
+}
+
+/// Faces that wait for their vertices; none once these are known.
+struct Faces {
+    waiting: Option<Vec<Face>>,
+}
+
+impl Faces {
+    /// Adds a face, or keeps it until there are vertices; none where the file has too many faults.
+    fn add(&mut self, face: Face, numbers: &mut Numbers<'_>, mesh: &mut Polygons) -> Option<()> {
+        if let Some(waiting) = &mut self.waiting {
+            waiting.push(face);
+            return Some(());
+        }
+        let Face { line, places, is_strip } = face;
+        let goes_on = if is_strip {
+            mesh.strip(&places, &mut numbers.faults)
+        } else {
+            mesh.face(line, &places, &mut numbers.faults)
+        };
+        goes_on.then_some(())
+    }
+
+    /// Adds what waited.
+    fn release(&mut self, numbers: &mut Numbers<'_>, mesh: &mut Polygons) -> Option<()> {
+        let waiting = self.waiting.take().unwrap_or_default();
+        waiting.into_iter().try_for_each(|face| self.add(face, numbers, mesh))
+    }
+}
+
 /// Reads all of an element.
-fn read(element: &Element, numbers: &mut Numbers<'_>, mesh: &mut Polygons) -> Option<()> {
+fn read(element: &Element, numbers: &mut Numbers<'_>, mesh: &mut Polygons, faces: &mut Faces) -> Option<()> {
     let Element { name, count, properties } = element;
     let bytes = |property: &Property| {
         if numbers.coding == Coding::Text { 1 } else { property.list.unwrap_or(property.kind).bytes() }
@@ -147,16 +186,12 @@ fn read(element: &Element, numbers: &mut Numbers<'_>, mesh: &mut Polygons) -> Op
             if is_vertices && name == "face" {
                 let places: Vec<usize> =
                     (0..long).map(|_| numbers.whole(property.kind, &what)).collect::<Option<_>>()?;
-                if !mesh.face(numbers.place(), &places, &mut numbers.faults) {
-                    return None;
-                }
+                faces.add(Face { line: numbers.place(), places, is_strip: false }, numbers, mesh)?;
             } else if is_vertices && name == "tristrips" {
                 let places: Vec<f64> = (0..long).map(|_| numbers.real(property.kind, &what)).collect::<Option<_>>()?;
                 for strip in places.split(|place| *place < 0.0) {
-                    let strip: Vec<usize> = strip.iter().map(|place| *place as usize).collect();
-                    if !mesh.strip(&strip, &mut numbers.faults) {
-                        return None;
-                    }
+                    let places: Vec<usize> = strip.iter().map(|place| *place as usize).collect();
+                    faces.add(Face { line: None, places, is_strip: true }, numbers, mesh)?;
                 }
             } else {
                 (0..long).try_for_each(|_| numbers.skip(property.kind, &what))?;

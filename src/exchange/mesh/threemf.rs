@@ -1,8 +1,9 @@
 //! 3MF (3MF Consortium, core specification 1.3): a package of XML. Read are the triangles of the objects that the build
-//! shows, each moved by its item and the components above it.
+//! shows, each moved by its item and the components above it. Supports, objects of type `other` and items that are not printed
+//! are left out, and objects of type `surface` where there are models.
 
 use roxmltree::{Document, Node, ParsingOptions};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 use std::io::{Cursor, Read as _, Write as _};
 use zip::write::SimpleFileOptions;
@@ -12,6 +13,7 @@ use super::super::fault::{Faults, LARGEST, RecordFault};
 use super::MOST_TRIANGLES;
 use super::polygons::Polygons;
 use crate::hull::{HullMesh, TriangleMesh};
+use crate::units::counted;
 
 /// Units, with their length \[m\].
 const UNITS: [(&str, f64); 6] =
@@ -27,10 +29,11 @@ type Rows = [[f64; 3]; 4];
 
 const STILL: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
 
-/// A mesh with its unit \[m\].
+/// A mesh with its unit \[m\], and what is left out.
 pub(in super::super) struct PackagedMesh {
     pub mesh: TriangleMesh,
     pub unit: f64,
+    pub notes: Vec<String>,
 }
 
 /// Whether these are the bytes of a 3MF package: an archive with a model.
@@ -52,15 +55,16 @@ fn model_name(archive: &ZipArchive<Cursor<&[u8]>>) -> Option<String> {
 /// # Errors
 /// Every fault of the file, up to a number of them.
 pub(in super::super) fn read_threemf(bytes: &[u8]) -> Result<PackagedMesh, Vec<RecordFault>> {
-    let (mut faults, mut mesh, mut unit) = (Faults::default(), Polygons::default(), 1e-3);
+    let (mut faults, mut mesh, mut unit, mut notes) = (Faults::default(), Polygons::default(), 1e-3, Vec::new());
     match read(bytes, &mut mesh, &mut faults) {
-        Ok(found) => unit = found,
+        Ok(found) => (unit, notes) = found,
         Err(message) => faults.add(None, "", message),
     }
-    mesh.finish(faults).map(|mesh| PackagedMesh { mesh, unit })
+    mesh.finish(faults).map(|mesh| PackagedMesh { mesh, unit, notes })
 }
 
-fn read(bytes: &[u8], mesh: &mut Polygons, faults: &mut Faults) -> Result<f64, String> {
+/// The unit \[m\], and what is left out.
+fn read(bytes: &[u8], mesh: &mut Polygons, faults: &mut Faults) -> Result<(f64, Vec<String>), String> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| format!("no archive: {error}"))?;
     let name = model_name(&archive).ok_or("the archive has no model")?;
     let mut text = String::new();
@@ -80,11 +84,19 @@ fn read(bytes: &[u8], mesh: &mut Polygons, faults: &mut Faults) -> Result<f64, S
         objects.extend(object.attribute("id").map(|id| (id, object)));
     }
     let build = element(root, "build").ok_or("the model has no build")?;
-    let mut model = Model { objects, shown: 0, mesh, faults };
+    let is_model = |object: &Node<'_, '_>| object.attribute("type").is_none_or(|kind| kind == "model");
+    let has_models = objects.values().any(|object| is_model(object) && element(*object, "mesh").is_some());
+    let mut model = Model { objects, has_models, shown: 0, left_out: BTreeMap::new(), mesh, faults };
     for item in build.children().filter(|node| node.tag_name().name() == "item") {
-        model.add(item, STILL, 0)?;
+        if matches!(item.attribute("printable"), Some("0" | "false")) {
+            *model.left_out.entry("not printed".to_owned()).or_default() += 1;
+        } else {
+            model.add(item, STILL, 0)?;
+        }
     }
-    Ok(unit)
+    let left_out = &model.left_out;
+    let notes = left_out.iter().map(|(why, count)| format!("left out: {}, {why}", counted(*count, "object"))).collect();
+    Ok((unit, notes))
 }
 
 fn element<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
@@ -94,7 +106,11 @@ fn element<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
 /// The objects of a model, and what is shown of them so far.
 struct Model<'a, 'b> {
     objects: HashMap<&'a str, Node<'a, 'b>>,
+    /// Whether there are objects of type `model`.
+    has_models: bool,
     shown: usize,
+    /// Objects that are left out, by why.
+    left_out: BTreeMap<String, usize>,
     mesh: &'a mut Polygons,
     faults: &'a mut Faults,
 }
@@ -111,8 +127,9 @@ impl Model<'_, '_> {
         }
         let id = shown.attribute("objectid").unwrap_or_default();
         let object = *self.objects.get(id).ok_or_else(|| format!("no object {id}"))?;
-        // Supports of a printer are no part of what is printed.
-        if matches!(object.attribute("type"), Some("support" | "solidsupport")) {
+        let kind = object.attribute("type").unwrap_or("model");
+        if matches!(kind, "support" | "solidsupport" | "other") || kind == "surface" && self.has_models {
+            *self.left_out.entry(format!("of type {kind}")).or_default() += 1;
             return Ok(());
         }
         let rows = match shown.attribute("transform") {

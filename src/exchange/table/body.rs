@@ -61,6 +61,8 @@ pub struct ReadBody {
     pub meshes: Vec<TriangleMesh>,
     /// What the triangles leave the surfaces of a CAD file by at most \[m\]; 0 where they are the body themselves.
     pub deviation: f64,
+    /// Whether it is of surfaces that nothing trims: they may reach over each other.
+    pub loose: bool,
     /// What the conventions beside the file state.
     pub stated: StatedParticulars,
     /// Warnings and notes: axes, units, openings.
@@ -143,7 +145,8 @@ const FORMATS: &[BodyFormat] = &[
     BodyFormat::new("VTK", &[".vtp", ".vtu"], is_vtk_xml, |bytes| read_vtk_xml(bytes).map(plain)),
     #[cfg(feature = "packages")]
     BodyFormat::new("3MF", &[".3mf"], is_threemf, |bytes| {
-        read_threemf(bytes).map(|PackagedMesh { mesh, unit }| Shape::Triangles(mesh, Given::plain(unit)))
+        read_threemf(bytes)
+            .map(|PackagedMesh { mesh, unit, notes }| Shape::Triangles(mesh, Given { notes, ..Given::plain(unit) }))
     }),
     BodyFormat::new("STL", &[".stl"], is_stl, |bytes| {
         read_stl(bytes).map(|parts| Shape::Named(parts, Given::plain(1.0)))
@@ -225,11 +228,12 @@ pub fn read_body<'a>(
             other
         }
     };
-    let mut deviation = 0.0;
+    let (mut deviation, mut loose) = (0.0, false);
     let meshes = match shape {
         Shape::Named(..) | Shape::Drawn(_) | Shape::Model(_) | Shape::Nothing => Vec::new(),
         Shape::Triangles(mesh, given) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
+            given.notes.iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note.clone(), ""));
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
             if kind == "GDF" && given.unit < 1.0 && settings.units.is_none() {
                 let message =
@@ -260,8 +264,8 @@ pub fn read_body<'a>(
             framed(meshes.to_vec(), &settings, &given, &mut problems)
         }
         Shape::Surfaces(read) => {
-            let (meshes, off) = cad::meshes(read, kind, &settings, &mut problems);
-            deviation = off;
+            let (meshes, off, untrimmed) = cad::meshes(read, kind, &settings, &mut problems);
+            (deviation, loose) = (off, untrimmed);
             meshes
         }
     };
@@ -269,6 +273,7 @@ pub fn read_body<'a>(
         name: settings.name.unwrap_or_default(),
         meshes,
         deviation,
+        loose,
         stated: settings.stated,
         notes,
         sections: settings.frame.sections.unwrap_or(SECTIONS),

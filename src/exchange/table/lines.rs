@@ -192,7 +192,7 @@ fn lines(source: Source, settings: &Settings, problems: &mut Problems) -> Option
         return None;
     }
     let given = Given::plain(unit);
-    let placement = Placement::of(bounds, settings, &given, problems)?;
+    let placement = Placement::of((bounds, extents), settings, &given, problems)?;
     let line = |curve: CadCurve| SpaceCurve {
         row: curve.line,
         points: curve.points.iter().map(|&point| placement.place(point)).collect(),

@@ -53,23 +53,27 @@ impl Outline {
             traces.push(turned.flatten().unwrap_or(found));
         }
         let loops = if traces.is_empty() {
-            vec![whole(chart, samples)?]
+            vec![whole(chart, samples, &[], face.left)?]
         } else if traces.iter().all(|trace| trace.winding == [0, 0]) {
             traces.into_iter().map(|trace| trace.corners).collect()
         } else {
             unwound(traces, face.left, chart, samples)?
         };
-        let loops = beside(loops, chart);
+        let mut loops = beside(loops, chart);
         let closed = chart.period.iter().any(Option::is_some);
         let mut left = face.left;
         if let (true, Some(stated), Some(outer)) = (closed, face.left, loops.first()) {
             let found = area(outer) > 0.0;
             // What a loop encloses with its seam lies on both sides of the seam, whatever its direction.
             let has_seam = face.loops.iter().any(|edges| edges.iter().any(|&(k, along)| edges.contains(&(k, !along))));
-            if found != stated && !has_seam {
-                return Err("its loops run the other way round than its inside asks for");
-            }
             left = Some(found);
+            if found != stated && !has_seam {
+                // All of a ball but what the loops enclose.
+                let around = whole(chart, samples, &loops, face.left);
+                loops.insert(0, around.map_err(|_| "its loops run the other way round than its inside asks for")?);
+                loops = beside(loops, chart);
+                left = Some(stated);
+            }
         }
         Ok(Self { loops, left })
     }
@@ -371,8 +375,66 @@ fn across(
     first
 }
 
-/// The whole of a surface without loops, which must shrink to points at both ends of v.
-fn whole(chart: &Chart<'_>, samples: &mut Samples) -> Result<Vec<Corner>, &'static str> {
+/// The whole of a torus from a point of it, with three parts of each seam, whose points are told apart by them.
+fn ring(chart: &Chart<'_>, samples: &mut Samples, [width, height]: [f64; 2]) -> Vec<Corner> {
+    let first = samples.points.len();
+    let third = |k: usize| k as f64 / 3.0;
+    samples.points.extend((0..3).map(|k| chart.point([third(k) * width, 0.0])));
+    samples.points.extend((1..3).map(|k| chart.point([0.0, third(k) * height])));
+    let along = |k: usize, v: f64| Corner { id: first + k % 3, uv: [third(k) * width, v], part: None };
+    let up = |u: f64, k: usize| Corner {
+        id: if k.is_multiple_of(3) { first } else { first + 2 + k },
+        uv: [u, third(k) * height],
+        part: None,
+    };
+    let there = (0..3).map(|k| along(k, 0.0)).chain((0..3).map(|k| up(width, k)));
+    let back = (1..4).rev().map(|k| along(k, height)).chain((1..4).rev().map(|k| up(0.0, k)));
+    there.chain(back).collect()
+}
+
+/// A parameter u, none of whose period loops cross; 0 without loops.
+fn seam_beside(loops: &[Vec<Corner>], period: f64) -> Option<f64> {
+    let mut ends: Vec<[f64; 2]> = Vec::new();
+    for corners in loops {
+        let us = || corners.iter().map(|corner| corner.uv[0]);
+        let [low, high] = [us().fold(f64::INFINITY, f64::min), us().fold(f64::NEG_INFINITY, f64::max)];
+        let from = low.rem_euclid(period);
+        ends.push([from, from + high - low]);
+    }
+    ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let Some(first) = ends.first().copied() else { return Some(0.0) };
+    let (mut best, mut reached) = (None::<[f64; 2]>, first[1]);
+    for next in ends[1..].iter().copied().chain([[first[0] + period, 0.0]]) {
+        let gap = next[0] - reached;
+        if gap > 0.0 && best.is_none_or(|[width, _]| gap > width) {
+            best = Some([gap, reached + 0.5 * gap]);
+        }
+        reached = reached.max(next[1]);
+    }
+    best.map(|[_, at]| at)
+}
+
+/// The whole of a surface, which must shrink to points at both ends of v or close in both directions, with its seam beside
+/// loops; its inside is to the left unless that is false.
+fn whole(
+    chart: &Chart<'_>,
+    samples: &mut Samples,
+    loops: &[Vec<Corner>],
+    left: Option<bool>,
+) -> Result<Vec<Corner>, &'static str> {
+    let mut corners = all_around(chart, samples, loops)?;
+    if left == Some(false) {
+        corners.reverse();
+    }
+    Ok(corners)
+}
+
+fn all_around(chart: &Chart<'_>, samples: &mut Samples, loops: &[Vec<Corner>]) -> Result<Vec<Corner>, &'static str> {
+    if let ([Some(width), Some(height)], true, true) =
+        (chart.period, chart.poles(0).is_empty() && chart.poles(1).is_empty(), loops.is_empty())
+    {
+        return Ok(ring(chart, samples, [width, height]));
+    }
     let mut poles = chart.poles(0);
     poles.sort_by(f64::total_cmp);
     poles.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
@@ -389,8 +451,10 @@ fn whole(chart: &Chart<'_>, samples: &mut Samples) -> Result<Vec<Corner>, &'stat
     }
     samples.points.extend([below, above]);
     let (south, north) = (samples.points.len() - 2, samples.points.len() - 1);
+    let from = seam_beside(loops, period).ok_or("loops lie all around it")?;
+    let to = from + period;
     let corner = |id: usize, u: f64, v: f64| Corner { id, uv: [u, v], part: None };
-    Ok(vec![corner(south, 0.0, low), corner(south, period, low), corner(north, period, high), corner(north, 0.0, high)])
+    Ok(vec![corner(south, from, low), corner(south, to, low), corner(north, to, high), corner(north, from, high)])
 }
 
 /// The loops with the largest first, and the others moved by whole turns to where they lie inside it.

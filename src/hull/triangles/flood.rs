@@ -317,6 +317,9 @@ impl TriangleMesh {
                 // What shares no edge with the skin is a tank, or a loose sheet.
                 shell.iter().for_each(|&k| left_out[k] = true);
                 found.sheets += shell.len();
+            } else if deepest >= DEEP {
+                // An inner skin whose rim is not joined to the outer one.
+                inner.extend(dry.iter().filter(|(_, depth)| *depth > 0).map(|(k, _)| *k));
             }
         }
         if self.is_inner_skin(&inner) {

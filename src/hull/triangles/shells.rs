@@ -43,11 +43,18 @@ pub struct InnerShells {
 /// What an open sheet encloses with its openings covered, over the power 3/2 of its area.
 const FLAT: f64 = 1e-3;
 
+/// Most sheets of which each is looked at again.
+const PUT_BACK: usize = 64;
+
 /// Openings longer than this part of the body, from lower than this part of its height on, and of more than this part of its
 /// area, are no decks.
 const LONG: f64 = 0.2;
 const LOW: f64 = 0.25;
 const WIDE: f64 = 0.02;
+
+/// An opening faces upward where this part of what covers it is level, and less than that part of it faces aside.
+const LEVEL: f64 = 0.5;
+const ASIDE: f64 = 0.02;
 
 /// Edges of an odd number of triangles, of which a closed body has none.
 fn odd_edges(triangles: impl Iterator<Item = [usize; 3]>) -> usize {
@@ -168,7 +175,7 @@ impl TriangleMesh {
     /// The mesh without open sheets beside its body, such as bilge keels and bulkheads: flat shells most of whose rims close
     /// nothing; and how many triangles they have. The sheet that closes least is left out first, of several the innermost.
     #[must_use]
-    pub fn without_sheets(mut self) -> (Self, usize) {
+    pub fn without_sheets(self) -> (Self, usize) {
         let shells = self.shells();
         let Some(bounds) = self.bounds().filter(|_| shells.len() > 1) else { return (self, 0) };
         let rims = Rims::of(&self, &shells, ONE);
@@ -202,16 +209,38 @@ impl TriangleMesh {
                 }
             }
         }
-        let sheets: Vec<&usize> = shells.iter().zip(&counts).filter(|(_, kept)| !**kept).flat_map(|(s, _)| s).collect();
-        if sheets.is_empty() || sheets.len() == self.triangles.len() {
+        self.put_back(&shells, &mut counts);
+        let sheets: usize = shells.iter().zip(&counts).filter(|(_, kept)| !**kept).map(|(shell, _)| shell.len()).sum();
+        if sheets == 0 || sheets == self.triangles.len() {
             return (self, 0);
         }
-        let count = sheets.len();
-        let mut out = vec![false; self.triangles.len()];
-        sheets.into_iter().for_each(|&t| out[t] = true);
-        let kept: Vec<[[f64; 3]; 3]> = self.corners().zip(out).filter(|(_, out)| !out).map(|(t, _)| t).collect();
-        self = Self::from_corners(kept.into_iter());
-        (self, count)
+        (self.of_shells(&shells, &counts), sheets)
+    }
+
+    /// Takes back those shells without which more of the skin is open than with them: plates beside the skin that nearly
+    /// close it.
+    fn put_back(&self, shells: &[Vec<usize>], counts: &mut [bool]) {
+        let sheets: Vec<usize> = (0..shells.len()).filter(|&k| !counts[k]).collect();
+        let mut open = self.of_shells(shells, counts).open_area();
+        if sheets.is_empty() || sheets.len() > PUT_BACK || open <= self.open_area() {
+            return;
+        }
+        for sheet in sheets {
+            counts[sheet] = true;
+            let with = self.of_shells(shells, counts).open_area();
+            if with < open {
+                open = with;
+            } else {
+                counts[sheet] = false;
+            }
+        }
+    }
+
+    /// The shells that count.
+    fn of_shells(&self, shells: &[Vec<usize>], counts: &[bool]) -> Self {
+        let mut out = vec![true; self.triangles.len()];
+        shells.iter().zip(counts).filter(|(_, kept)| **kept).flat_map(|(shell, _)| shell).for_each(|&t| out[t] = false);
+        Self::from_corners(self.corners().zip(out).filter(|(_, out)| !out).map(|(t, _)| t))
     }
 
     /// The greatest opening of the skin along the ship and below the deck: its area over that of the skin, and its least and
@@ -230,9 +259,15 @@ impl TriangleMesh {
                 .iter()
                 .map(|&k| triangle_area([self.vertices[open[k][0]], self.vertices[open[k][1]], middle]))
                 .sum();
+            let turn = edges.iter().map(|&k| open[k]).fold([0.0; 3], |sum, [p, q]| {
+                let area = cross(minus(self.vertices[q], middle), minus(self.vertices[p], middle));
+                [0, 1, 2].map(|axis| sum[axis] + area[axis])
+            });
+            // With a transom that is missing too, a deck is open down to the keel.
+            let is_deck = turn[2] > LEVEL * length(turn) && turn[1].abs() < ASIDE * length(turn);
             let is_long = bounds[1][0] - bounds[0][0] > LONG * extent[0];
             let is_low = bounds[0][2] - least[2] < LOW * extent[2];
-            (is_long && is_low && area > WIDE * skin).then_some((area / skin, bounds))
+            (is_long && is_low && !is_deck && area > WIDE * skin).then_some((area / skin, bounds))
         };
         chains(&open).iter().filter_map(hole).max_by(|a, b| a.0.total_cmp(&b.0))
     }

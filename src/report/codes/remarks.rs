@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 42] = [
+pub(super) const REMARKS: [Explanation; 43] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -196,7 +196,8 @@ pub(super) const REMARKS: [Explanation; 42] = [
     Explanation {
         code: "W352",
         title: "Surfaces that are not read",
-        cause: "A STEP, IGES or DXF file has entities beside its faces or curves that are not read, or a 3DM file hides objects.",
+        cause: "A STEP, IGES or DXF file has entities beside its faces or curves that are not read, or a 3DM file hides objects. \
+         Or a 3MF package has objects that are no model or are not printed.",
         example: "`1 CYLINDRICAL_SURFACE of no face are not read`.",
         remedy: "Nothing, if these are no part of the hull. `--parts` names layers of a 3DM file that count, also hidden ones. \
          Objects that are hidden one by one are shown in the file alone.",
@@ -215,6 +216,14 @@ pub(super) const REMARKS: [Explanation; 42] = [
         cause: "LCB at the design draught is more than 6 % of Lpp from midship. Or a half angle of entrance is outside 3 to 70 degrees.",
         example: "`hydro` of a mesh whose bow points aft.",
         remedy: "Check where AP is, and the forward axis (`--axes`).",
+    },
+    Explanation {
+        code: "W355",
+        title: "Skin whose integrals disagree",
+        cause: "The waterplane by the waterline and by the skin below differ by more than 0.1 %, or volumes by x, y and z do. \
+         The skin has slits or sheets, or the draught is above the rim of an open deck.",
+        example: "Sides that begin 8 mm above the bilge: 0.3 % of the volume.",
+        remedy: "Close the skin below the draught, and give it alone. Deck, transom and flat bow may be missing.",
     },
     Explanation {
         code: "W401",

@@ -240,7 +240,7 @@ pub(super) const TABLES: [Explanation; 33] = [
         code: "E353",
         title: "Hydrostatics that no body can have",
         cause: "A volume, a waterplane or a section exceeds that of the box around the body, or KB lies outside of \
-         the immersed part.",
+         the immersed part. Or integrals over the skin differ by more than 1 %: plates are missing, or stand inside.",
         example: "A mesh with the same skin twice.",
         remedy: "Give the outer skin alone, with its triangles turned outward.",
     },

@@ -18,6 +18,9 @@ pub(super) type Lists<'a> = &'a dyn Fn(&Entry) -> (Vec<f64>, Option<Vec<f64>>);
 /// Ends of curves in space and in the parameters of a surface are nearer to each other than this part of the size of a loop.
 const AGREES: f64 = 1e-3;
 
+/// Gaps of a loop less than this part of others are smaller ones.
+const CLEARLY: f64 = 0.5;
+
 /// A loop, edge by edge and with their directions.
 type Ring = Vec<(usize, bool)>;
 
@@ -60,6 +63,19 @@ pub(super) fn faces(directory: &BTreeMap<usize, Entry>, lists: Lists<'_>, faults
 /// A pointer of a list.
 fn pointer(list: &[f64], k: usize) -> usize {
     list.get(k).copied().filter(|v| (0.0..1e9).contains(v)).unwrap_or(0.0) as usize
+}
+
+/// Which curves of a loop run forward, by their ends, where the first does or not; and the sum of the gaps between them.
+fn chained(ends: &[[[f64; 3]; 2]], first: bool) -> (Vec<bool>, f64) {
+    let apart = |a: [f64; 3], b: [f64; 3]| length(minus(a, b));
+    let (mut forward, mut gaps) = (vec![first; ends.len()], 0.0);
+    for k in 1..ends.len() {
+        let last = ends[k - 1][usize::from(forward[k - 1])];
+        let [near, far] = ends[k].map(|end| apart(last, end));
+        forward[k] = near <= far;
+        gaps += near.min(far);
+    }
+    (forward, gaps)
 }
 
 /// A loop run through the other way round.
@@ -327,23 +343,13 @@ impl FaceReader<'_> {
         Some(self.body.vertices.len() - 1)
     }
 
-    /// Curves end to end as edges, each turned to where the one before it ends.
+    /// Curves end to end as edges, each turned to where the one before it ends; the first as it leaves the smaller gaps, of equal
+    /// ones as it is given.
     fn ring(&mut self, pieces: Vec<Piece>) -> Ring {
-        let apart = |a: [f64; 3], b: [f64; 3]| length(minus(a, b));
         let ends: Vec<[[f64; 3]; 2]> =
             pieces.iter().map(|(curve, range): &(SpaceCurve, [f64; 2])| range.map(|t| curve.point(t))).collect();
-        let mut forward: Vec<bool> = Vec::with_capacity(ends.len());
-        for (k, &[from, to]) in ends.iter().enumerate() {
-            let along = match (k.checked_sub(1), ends.get(1)) {
-                (Some(before), _) => {
-                    let last = ends[before][usize::from(forward[before])];
-                    apart(last, from) <= apart(last, to)
-                }
-                (None, Some(&[a, b])) => apart(to, a).min(apart(to, b)) <= apart(from, a).min(apart(from, b)),
-                (None, None) => true,
-            };
-            forward.push(along);
-        }
+        let [(given, gap), (turned, other)] = [true, false].map(|first| chained(&ends, first));
+        let forward = if other < CLEARLY * gap { turned } else { given };
         pieces.into_iter().zip(forward).map(|(piece, along)| (self.edge(piece), along)).collect()
     }
 

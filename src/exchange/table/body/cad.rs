@@ -33,14 +33,14 @@ const MOST_COMPARED: usize = 300;
 /// Spaces between points of a side of a surface; every second point is looked for on other sides.
 const SPACES: usize = 32;
 
-/// The body of a CAD file in the ship's frame, and what it leaves the surfaces by at most \[m\]; none, with problems, when
-/// it cannot be read whole.
+/// The body of a CAD file in the ship's frame, what it leaves the surfaces by at most \[m\], and whether it is of surfaces each
+/// for itself; none, with problems, when it cannot be read whole.
 pub(super) fn meshes(
     read: CadSurfaces,
     kind: &str,
     settings: &Settings,
     problems: &mut Problems,
-) -> (Vec<TriangleMesh>, f64) {
+) -> (Vec<TriangleMesh>, f64, bool) {
     let CadSurfaces { mut surfaces, unit, notes, mut body, mut unread, .. } = read;
     let unit = unit.unwrap_or(1.0);
     notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
@@ -57,10 +57,18 @@ pub(super) fn meshes(
     if faces > 0 {
         match body.whole_surfaces().filter(|_| unread.is_empty()) {
             Some(whole) => surfaces.extend(whole),
-            None => return of_faces(&body, &mut unread, (kind, unit), settings, problems),
+            None => {
+                let (meshes, deviation) = of_faces(&body, &mut unread, (kind, unit), settings, problems);
+                return (meshes, deviation, false);
+            }
         }
     }
-    of_surfaces(surfaces, (kind, unit), settings, problems)
+    if let Some(shells) = closed_shells(&surfaces) {
+        let (meshes, deviation) = of_shells(shells, &surfaces, (kind, unit), settings, problems);
+        return (meshes, deviation, false);
+    }
+    let (meshes, deviation) = of_surfaces(surfaces, (kind, unit), settings, problems);
+    (meshes, deviation, true)
 }
 
 /// Faces inside their loops, in two nested meshes.
@@ -100,6 +108,42 @@ fn of_faces(
         return (Vec::new(), 0.0);
     }
     in_frame(made.meshes, made.deviation, &Given::plain(unit), settings, problems)
+}
+
+/// Surfaces in turn as two closed shells or more, each as two nested meshes turned outward, where the file gives shell after
+/// shell and their triangles meet edge to edge. So a wall that two of them have in common belongs to both.
+fn closed_shells(surfaces: &[BsplineSurface<4>]) -> Option<Vec<[TriangleMesh; 2]>> {
+    if surfaces.len() > MOST_COMPARED {
+        return None;
+    }
+    let deviation = DEVIATION * extent(surfaces);
+    let (mut shells, mut own): (Vec<_>, [Vec<_>; 2]) = (Vec::new(), [Vec::new(), Vec::new()]);
+    for surface in surfaces {
+        let (nested, _) = TriangleMesh::nested(std::slice::from_ref(surface), deviation, ENOUGH).ok()?;
+        own.iter_mut().zip(&nested).for_each(|(corners, mesh)| corners.extend(mesh.corners()));
+        if TriangleMesh::from_corners(own[0].iter().copied()).odd_edges() == 0 {
+            let whole = std::mem::take(&mut own);
+            shells.push(whole.map(|corners| TriangleMesh::from_corners(corners.into_iter()).oriented().0));
+        }
+    }
+    (own[0].is_empty() && shells.len() > 1).then_some(shells)
+}
+
+/// Closed shells of whole surfaces as solids, in two nested meshes.
+fn of_shells(
+    shells: Vec<[TriangleMesh; 2]>,
+    surfaces: &[BsplineSurface<4>],
+    (kind, unit): (&str, f64),
+    settings: &Settings,
+    problems: &mut Problems,
+) -> (Vec<TriangleMesh>, f64) {
+    problems.note(format!(
+        "{} surfaces ({kind}) in {} closed shells, untrimmed; the unit of the file is {unit} m",
+        surfaces.len(),
+        shells.len()
+    ));
+    let all = |k: usize| TriangleMesh::from_corners(shells.iter().flat_map(|nested| nested[k].corners()));
+    in_frame([all(0), all(1)], DEVIATION * extent(surfaces), &Given::plain(unit), settings, problems)
 }
 
 /// Whole surfaces, in two nested meshes.

@@ -34,12 +34,14 @@ pub(in super::super) struct Given {
     pub(in super::super) half: Option<bool>,
     /// Triangles over surfaces, each for itself.
     pub(in super::super) surfaces: bool,
+    /// What is left out of it, in words.
+    pub(in super::super) notes: Vec<String>,
 }
 
 impl Given {
     /// A file that says nothing but its unit \[m\].
     pub(in super::super) fn plain(unit: f64) -> Self {
-        Self { unit, axes: None, up: 2, half: None, surfaces: false }
+        Self { unit, axes: None, up: 2, half: None, surfaces: false, notes: Vec::new() }
     }
 
     /// Metres in what the coordinates of the file count, by the settings before the file.
@@ -60,17 +62,17 @@ pub(in super::super) struct Placement {
 }
 
 impl Placement {
-    /// By the bounds of the points, the settings and what the file says; none, with a problem, when the axes cannot be
-    /// told.
+    /// By the bounds of the points and how far they spread along the axes, the settings and what the file says; none, with a
+    /// problem, when the axes cannot be told.
     pub(in super::super) fn of(
-        bounds: [[f64; 3]; 2],
+        (bounds, spread): ([[f64; 3]; 2], [f64; 3]),
         settings: &Settings,
         given: &Given,
         problems: &mut Problems,
     ) -> Option<Self> {
         let BodyFrame { axes, up, x_origin, z_origin, .. } = settings.frame;
         let known = axes.or(if up.is_none() { given.axes } else { None });
-        let axes = known.or_else(|| found_axes(bounds, up, given.up, problems))?;
+        let axes = known.or_else(|| found_axes((bounds, spread), up, given.up, problems))?;
         let unit = given.metres(settings);
         let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
         let origin = [x_origin, z_origin].map(|place| place.unwrap_or(0.0));
@@ -93,7 +95,8 @@ pub(in super::super) fn framed(
     problems: &mut Problems,
 ) -> Vec<TriangleMesh> {
     let Some(bounds) = meshes[0].bounds().filter(|_| !problems.any_errors()) else { return meshes };
-    let Some(placement) = Placement::of(bounds, settings, given, problems) else { return meshes };
+    let spread = meshes[0].deviations();
+    let Some(placement) = Placement::of((bounds, spread), settings, given, problems) else { return meshes };
     let BodyFrame { x_origin, .. } = settings.frame;
     let surfaces = given.surfaces;
     let place = |corner: [f64; 3]| placement.place(corner);
@@ -380,9 +383,10 @@ fn without_top(mesh: &TriangleMesh) -> TriangleMesh {
 /// The axes of a body by its extents; none, with a problem, when they cannot be told.
 ///
 /// The axis that is `usual`ly up in the format is so. It is not where the body is symmetric along it and nowhere else, or where
-/// it is the longest and the body is symmetric along one of the others alone.
+/// it is the longest and the body is symmetric along one of the others alone. The longest is that along which the skin spreads
+/// farthest too: a mast may be higher than its hull is long.
 fn found_axes(
-    [least, greatest]: [[f64; 3]; 2],
+    ([least, greatest], spread): ([[f64; 3]; 2], [f64; 3]),
     up: Option<(usize, f64)>,
     usual: usize,
     problems: &mut Problems,
@@ -403,7 +407,7 @@ fn found_axes(
     let names = ["x", "y", "z"];
     let written = with_up((usual, 1.0));
     let others = [(usual + 1) % 3, (usual + 2) % 3];
-    let is_tall = others.iter().all(|&k| extent(usual) > extent(k));
+    let is_tall = others.iter().all(|&k| extent(usual) > extent(k) && spread[usual] > spread[k]);
     let frame = match others.map(symmetric) {
         // A column is symmetric along both of the others.
         [true, true] => written,
