@@ -122,6 +122,22 @@ fn angles_and_metacentric_heights_are_met() {
     assert!(unlike.contains("--gm"), "{unlike}");
 }
 
+/// A bilge of radius r under level bottom and plumb sides leaves (2 - pi/2) r^2 of B T; one that does not fit is refused.
+#[test]
+fn a_bilge_radius_stands_for_a_midship_coefficient() {
+    let outputs = derived("tug", &[("bilge_radius", "2.9 m")]);
+    let row = &outputs.outputs.design_row;
+    let particulars = outputs.derived.hull.particulars();
+    let box_area = particulars.breadth * particulars.draught.unwrap();
+    let radius = ((1.0 - row.midship_coefficient.unwrap()) * box_area / (2.0 - std::f64::consts::FRAC_PI_2)).sqrt();
+    assert!((radius - 2.9).abs() < 1e-9, "{radius}");
+    let refused = |entries: &[(&str, &str)]| derive_outputs(&job("tug", entries), &[]).err().unwrap().to_string();
+    let wide = refused(&[("bilge_radius", "3.7 m")]);
+    assert!(wide.contains("--bilge-radius") && wide.contains("at most 3.600 m"), "{wide}");
+    let sharp = refused(&[("bilge_radius", "0.3 m")]);
+    assert!(sharp.contains("E420") && sharp.contains("--bilge-radius"), "{sharp}");
+}
+
 /// The price of a target is the derivative of the bending by it, with its sign; the gap is that of the optimum itself.
 #[test]
 fn prices_are_derivatives_with_their_signs() {
