@@ -16,6 +16,9 @@ use crate::hydrostatics::Quantity;
 /// Section areas that the page lists one by one.
 pub(super) const MOST_AREAS: usize = 4;
 
+/// Part of a target that a quantity on it is off by rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// A constraint before and after, and what holding it costs.
 fn held_line(held: &Held, length: Option<f64>, nearest: bool) -> String {
     let target = held.constraint.target();
@@ -54,7 +57,7 @@ fn held_line(held: &Held, length: Option<f64>, nearest: bool) -> String {
             let why = if held.band > held.constraint.band() { ", two standard errors about the likeliest" } else { "" };
             format!("{place} {} to {}{why}", fixed(low, decimals), fixed(high, decimals) + unit)
         }
-        off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
+        off if off.abs() > ROUNDING * target.abs() => format!("off target by {off:.0e}"),
         _ => "on target".to_owned(),
     };
     let price = priced(if missed { "what was reached" } else { "it" }, held.price);
