@@ -375,7 +375,7 @@ fn across(
     first
 }
 
-/// The whole of a torus from a point of it, with three parts of each seam, whose points are told apart by them.
+/// The whole of a torus from a point of it, with three parts of each seam, so that its points differ.
 fn ring(chart: &Chart<'_>, samples: &mut Samples, [width, height]: [f64; 2]) -> Vec<Corner> {
     let first = samples.points.len();
     let third = |k: usize| k as f64 / 3.0;
