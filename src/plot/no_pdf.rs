@@ -1,6 +1,8 @@
 //! What stands for PDF in a library that was built without it.
 
-use super::{Heading, Page, PlotError, Sheet};
+use super::pages::{Heading, Page};
+use super::paper::error::PlotError;
+use super::paper::sheet::Sheet;
 
 /// The figures at true size, each with frame, title block and check bar.
 ///

@@ -1,6 +1,6 @@
 //! What the pages of a document are made of.
 
-use super::figure::Svg;
+use super::paper::svg::Svg;
 
 /// A figure of the document.
 #[derive(Debug, Clone, Copy)]

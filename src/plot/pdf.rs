@@ -1,8 +1,11 @@
 //! Figures on the pages of a PDF at true size: vectors, and text in the embedded font. No dates: the same figures give
 //! the same bytes.
 
-use super::sheet::{ROOM, Sheet, Titles, framed, has_room_for_caption, numbered_over};
-use super::{Heading, Page, PlotError, caption};
+use super::pages::{Heading, Page};
+use super::paper::error::PlotError;
+use super::paper::sheet::{ROOM, Sheet};
+use super::ship::caption;
+use super::ship::framed::{Titles, framed, has_room_for_caption, numbered_over};
 use document::{About, Document};
 use drawing::PageContent;
 use resvg::usvg::Tree;
@@ -11,6 +14,7 @@ use std::sync::Arc;
 mod document;
 mod drawing;
 mod letters;
+mod packed;
 #[cfg(test)]
 mod tests;
 

@@ -1,16 +1,17 @@
 //! The figures of reports: text keeps apart and on the sheet, and they fit into the frame of A3.
 
-use super::canvas::Canvas;
-use super::fairing_body::BodyView;
-use super::fairing_combs::FairingCombs;
-use super::fairing_curves::Along;
-use super::fairing_long::Kind;
-use super::sheet::{ROOM, Sheet};
-use super::surface_map::{self, SurfaceMapKind, SurfaceMaps};
-use super::{
-    FigureInputs, PlotError, bonjean, deviation, fairing_arrows, fairing_arrows_long, fairing_body, fairing_curves,
-    fairing_half_breadths, fairing_long, fairing_moves, fairing_suspects, fairing_table, pareto,
-};
+use super::figures::fairing::body::BodyView;
+use super::figures::fairing::combs::FairingCombs;
+use super::figures::fairing::long::Kind;
+use super::figures::fairing::strip_lines::Along;
+use super::figures::fairing::{arrows, arrows_long, body, curves, half_breadths, long, moves, suspects, table};
+use super::figures::map_legend::SurfaceMapKind;
+use super::figures::surface_map::SurfaceMaps;
+use super::figures::{bonjean, deviation, pareto, surface_map};
+use super::paper::canvas::Canvas;
+use super::paper::error::PlotError;
+use super::paper::sheet::{ROOM, Sheet};
+use super::ship::inputs::FigureInputs;
 use crate::fairing::job::Job;
 use crate::fairing::record::FairRecord;
 use crate::hull::{Entry, Hull, OffsetStation, OffsetTable};

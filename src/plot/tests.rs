@@ -1,11 +1,15 @@
 //! The figures of hulls of several kinds: what stands on them and where.
 
-use super::canvas::Canvas;
-use super::lines_grid::LinesGrid;
-use super::profile::{self, LongStyle, Naming};
-use super::scale::drawing_scale;
-use super::view::View;
-use super::{Figure, FigureInputs, PlotError, Svg};
+use super::figures::figure::Figure;
+use super::paper::canvas::Canvas;
+use super::paper::error::PlotError;
+use super::paper::scale::drawing_scale;
+use super::paper::svg::Svg;
+use super::ship::inputs::FigureInputs;
+use super::ship::lines_grid::LinesGrid;
+use super::ship::profile;
+use super::ship::profile::{LongStyle, Naming};
+use super::ship::view::View;
 use crate::hull::{Hull, StationNumbers};
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::parametric::ShipType;

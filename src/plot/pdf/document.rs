@@ -4,20 +4,9 @@
 use super::drawing::{FONT, PageContent};
 use super::error;
 use super::letters::Letters;
-use crate::plot::PlotError;
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
-use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Settings, TextStr};
-use std::io::Write;
-
-/// No spaces that only people need.
-pub(super) const COMPACT: Settings = Settings { pretty: false };
-
-/// `bytes` as a stream holds them.
-pub(super) fn packed(bytes: &[u8]) -> Result<Vec<u8>, PlotError> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(6));
-    encoder.write_all(bytes).and_then(|()| encoder.finish()).map_err(error)
-}
+use super::packed::{COMPACT, packed};
+use crate::plot::paper::error::PlotError;
+use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 
 /// What a viewer shows of the document as a whole.
 pub(super) struct About<'a> {

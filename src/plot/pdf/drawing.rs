@@ -5,7 +5,8 @@
 
 use super::error;
 use super::letters::Letters;
-use crate::plot::{PlotError, font};
+use crate::plot::paper::error::PlotError;
+use crate::plot::paper::font;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle, TextRenderingMode};
 use pdf_writer::{Content, Finish, Name, Str, TextStr};
 use resvg::tiny_skia::{PathSegment, Transform};
@@ -190,7 +191,7 @@ pub(super) struct PageContent<'a> {
 impl<'a> PageContent<'a> {
     /// An empty page, its height in points.
     pub(super) fn new(height: f64, letters: &'a mut Letters) -> Self {
-        Self { content: Content::with_settings(super::document::COMPACT), height, letters, state: State::new() }
+        Self { content: Content::with_settings(super::packed::COMPACT), height, letters, state: State::new() }
     }
 
     pub(super) fn finish(self) -> Vec<u8> {

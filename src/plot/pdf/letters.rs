@@ -1,9 +1,10 @@
 //! The typeface of a document: the glyphs that its text takes, embedded once, and what text they stand for. Drawings
 //! know no other font.
 
-use super::document::packed;
 use super::error;
-use crate::plot::{PlotError, font};
+use super::packed::packed;
+use crate::plot::paper::error::PlotError;
+use crate::plot::paper::font;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
 use sha2::{Digest, Sha256};

@@ -1,7 +1,11 @@
 //! The pages of a PDF as a viewer reads them: text by its character map, lines by their operators.
 
-use super::super::figure::Svg;
-use super::super::{Heading, Page, PlotError, Sheet, font, write_pdf};
+use super::write_pdf;
+use crate::plot::pages::{Heading, Page};
+use crate::plot::paper::error::PlotError;
+use crate::plot::paper::font;
+use crate::plot::paper::sheet::Sheet;
+use crate::plot::paper::svg::Svg;
 use std::collections::BTreeMap;
 use std::io::Read;
 
