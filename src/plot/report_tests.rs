@@ -132,8 +132,8 @@ fn long_ships_have_a_sheet_for_each_half() {
     let words = |canvas: &Canvas, part: &str| canvas.texts().iter().any(|text| text.content.contains(part));
     for sheet in Sheet::ALL {
         for (name, sheets) in [
-            ("half-breadth plan", fairing_half_breadths::half_breadth_plan(&record, &combs, sheet).unwrap()),
-            ("diagonals", fairing_long::compose(&record, &combs, sheet, Kind::Diagonals).unwrap()),
+            ("half-breadth plan", half_breadths::half_breadth_plan(&record, &combs, sheet).unwrap()),
+            ("diagonals", long::compose(&record, &combs, sheet, Kind::Diagonals).unwrap()),
         ] {
             // Diagonals are two to a sheet.
             let [aft, fore, ..] = &sheets[..] else { panic!("{name}: {} sheets", sheets.len()) };
@@ -156,8 +156,8 @@ fn body_plans_fill_their_sheet_and_name_every_station() {
     let record = record();
     let combs = FairingCombs::new(&record, &[]);
     let plans = [
-        fairing_body::body_plan(&record, &combs, Sheet::A3).unwrap(),
-        fairing_arrows::compose(&record, Sheet::A3).unwrap(),
+        body::body_plan(&record, &combs, Sheet::A3).unwrap(),
+        arrows::compose(&record, Sheet::A3).unwrap(),
     ];
     for plan in plans {
         let is_number = |text: &str| text.parse::<usize>().ok();
@@ -189,15 +189,15 @@ fn figures_of_faired_tables_keep_their_text_apart() {
         let mut scales = std::collections::BTreeSet::new();
         let one = |canvas: Result<Canvas, PlotError>| canvas.map(|canvas| vec![canvas]);
         let figures = [
-            ("arrows", one(fairing_arrows::compose(&record, sheet))),
-            ("long arrows", one(fairing_arrows_long::compose(&record, sheet))),
-            ("body plan", one(fairing_body::body_plan(&record, &combs, sheet))),
-            ("half-breadth plan", fairing_half_breadths::half_breadth_plan(&record, &combs, sheet)),
-            ("buttocks", fairing_long::compose(&record, &combs, sheet, Kind::Buttocks)),
-            ("diagonals", fairing_long::compose(&record, &combs, sheet, Kind::Diagonals)),
-            ("suspects", one(fairing_suspects::compose(&record, sheet).map(Option::unwrap))),
-            ("waterlines", Ok(vec![fairing_curves::compose(&record, &combs, sheet, Along::Ship).unwrap()])),
-            ("stations", Ok(vec![fairing_curves::compose(&record, &combs, sheet, Along::Height).unwrap()])),
+            ("arrows", one(arrows::compose(&record, sheet))),
+            ("long arrows", one(arrows_long::compose(&record, sheet))),
+            ("body plan", one(body::body_plan(&record, &combs, sheet))),
+            ("half-breadth plan", half_breadths::half_breadth_plan(&record, &combs, sheet)),
+            ("buttocks", long::compose(&record, &combs, sheet, Kind::Buttocks)),
+            ("diagonals", long::compose(&record, &combs, sheet, Kind::Diagonals)),
+            ("suspects", one(suspects::compose(&record, sheet).map(Option::unwrap))),
+            ("waterlines", Ok(vec![curves::compose(&record, &combs, sheet, Along::Ship).unwrap()])),
+            ("stations", Ok(vec![curves::compose(&record, &combs, sheet, Along::Height).unwrap()])),
         ];
         let sheets =
             figures.into_iter().flat_map(|(name, sheets)| sheets.unwrap().into_iter().map(move |one| (name, one)));
@@ -215,12 +215,12 @@ fn figures_of_faired_tables_keep_their_text_apart() {
         // One scale for each kind of line, whatever the sheet.
         assert_eq!(scales.len(), 4, "{scales:?}");
     }
-    let moves = fairing_moves::compose(&record).unwrap();
+    let moves = moves::compose(&record).unwrap();
     let words: Vec<&str> = moves.texts().iter().map(|text| text.content.as_str()).collect();
     assert!(words.iter().any(|word| word.starts_with("moves in eighths of an inch")), "{words:?}");
     found.extend(faults("moves", &moves));
     let limit = 0.0254 / 8.0;
-    let [sheet] = &fairing_table::compose(&record, &[], limit, "1/8 in")[..] else { panic!("one sheet is enough") };
+    let [sheet] = &table::compose(&record, &[], limit, "1/8 in")[..] else { panic!("one sheet is enough") };
     let words: Vec<&str> = sheet.texts().iter().map(|text| text.content.as_str()).collect();
     let more = record.changes.iter().filter(|c| !c.suspect && (c.after - c.before).abs() > limit).count();
     assert!(more > 0 && words.contains(&format!("moved by more than 1/8 in: {more}").as_str()), "{words:?}");

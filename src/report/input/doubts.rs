@@ -1,0 +1,142 @@
+//! What may be wrong with the hull of a table by more than one per cent of its volume.
+
+use crate::report::words::lengths;
+use crate::units::{Notation, counted};
+use crate::fairing::Suspects;
+use crate::hull::{Hull, OffsetTable, OutlinePoint, SectionalAreaCurve, StationOffsets, enclosed};
+use crate::numeric::trapezoids;
+use std::f64::consts::PI;
+
+/// Part of the volume from which a doubt is a warning.
+const SHARE: f64 = 0.01;
+
+/// Greatest turn between two chords that is of a curve \[rad\].
+const CURVED: f64 = 0.25 * PI;
+
+/// The suspects of a table in one line: a warning where they change the volume by more than one per cent.
+pub(in crate::report) fn suspects_doubt(table: &OffsetTable, found: &Suspects) -> Option<String> {
+    let line = suspects_line(table, found)?;
+    let area = |expected: bool| {
+        let station = |(k, station): (usize, &StationOffsets)| {
+            let offset = |(j, z): (usize, &f64)| {
+                let suspect = found.suspects.iter().find(|s| expected && s.station == k && s.waterline == j);
+                let value = suspect.map_or_else(|| station.half_breadth(j), |suspect| Some(suspect.verdict.expected));
+                [*z, value.unwrap_or(0.0)]
+            };
+            let offsets: Vec<[f64; 2]> = table.waterlines.iter().enumerate().map(offset).collect();
+            [station.station.x, trapezoids(&offsets)]
+        };
+        trapezoids(&table.stations.iter().enumerate().map(station).collect::<Vec<_>>())
+    };
+    let (written, expected) = (area(false), area(true));
+    let share = written / expected - 1.0;
+    Some(if share.is_finite() && share.abs() > SHARE {
+        format!("W341 {line}. As written the volume is {:+.1} % of that with the expected offsets", 100.0 * share)
+    } else {
+        line
+    })
+}
+
+/// Area of a section as its points are drawn, one side [m^2], and about what a curve through them has more.
+///
+/// Points joined by chords enclose int y dz; pieces that fall take away. A curve that turns by t over a chord l bulges by
+/// l^2 t / 12.
+fn drawn(points: &[OutlinePoint]) -> [f64; 2] {
+    let chords: Vec<[f64; 2]> = points.windows(2).map(|p| [p[1].y - p[0].y, p[1].z - p[0].z]).collect();
+    let turn = |k: usize| {
+        let ([a, b], [c, d]) = (chords[k], chords[k + 1]);
+        let turn = (a * d - b * c).atan2(a * c + b * d);
+        if points[k + 1].marks.knuckle || turn.abs() > CURVED { 0.0 } else { turn }
+    };
+    let turns: Vec<f64> = (0..chords.len().saturating_sub(1)).map(turn).collect();
+    let around = |k: usize| {
+        let both = [k.checked_sub(1), Some(k)].map(|at| at.and_then(|at| turns.get(at)).copied());
+        let known: Vec<f64> = both.into_iter().flatten().collect();
+        known.iter().sum::<f64>() / known.len().max(1) as f64
+    };
+    let bulge = chords.iter().enumerate().map(|(k, [y, z])| (y * y + z * z) * around(k) / 12.0).sum();
+    [enclosed(points), bulge]
+}
+
+/// The volume inside the sections of a table as they are drawn against that of the hull between the same heights: a warning
+/// where they differ by more than one per cent, and more than curves through the points bulge.
+pub(in crate::report) fn drawn_doubt(table: &OffsetTable, hull: &Hull) -> Option<String> {
+    let outlined: Vec<&StationOffsets> = table
+        .stations
+        .iter()
+        .filter(|station| station.half_breadths.is_empty() && station.outlines.iter().any(|line| line.len() > 1))
+        .collect();
+    if outlined.len() < 3 {
+        return None;
+    }
+    let (mut of_points, mut bulges, mut of_hull) = (Vec::new(), Vec::new(), Vec::new());
+    for station in outlined {
+        let x = station.station.x;
+        let (mut area, mut bulge, mut found) = (0.0, 0.0, 0.0);
+        for line in station.outlines.iter().filter(|line| line.len() > 1) {
+            let [own, more] = drawn(line);
+            let ends = [line[0].z, line[line.len() - 1].z];
+            let sign = (ends[1] - ends[0]).signum();
+            (area, bulge) = (area + sign * own, bulge + more.abs());
+            let low_high = line.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p.z), b.max(p.z)]);
+            let areas = SectionalAreaCurve::areas(hull, &low_high, &[x]).remove(0);
+            found += 0.5 * (areas[1] - areas[0]);
+        }
+        of_points.push([x, area]);
+        bulges.push([x, bulge]);
+        of_hull.push([x, found]);
+    }
+    let [drawn, bulge, found] = [of_points, bulges, of_hull].map(|list| trapezoids(&list));
+    let off = found / drawn - 1.0;
+    (drawn > 0.0 && off.abs() > SHARE + 2.0 * bulge / drawn).then(|| {
+        format!(
+            "W340 the sections as they are drawn enclose {} m3 on both sides, and the hull through them {:+.1} % of that: points were \
+             left out, or the curves through them are others. Are they in order from keel to deck, and the chines marked?",
+            volume(2.0 * drawn),
+            100.0 * off
+        )
+    })
+}
+
+/// A volume \[m3\] with four digits at least: `1.278`, `70.99`, `123456`.
+fn volume(volume: f64) -> String {
+    let digits = volume.max(f64::MIN_POSITIVE).log10().floor().clamp(-9.0, 3.0);
+    format!("{volume:.0$}", (3.0 - digits) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::Marks;
+
+    #[test]
+    fn the_bulge_of_an_arc() {
+        let point = |k: usize| {
+            let angle = 0.5 * PI * f64::from(u32::try_from(k).unwrap()) / 12.0;
+            OutlinePoint { y: angle.sin(), z: 1.0 - angle.cos(), marks: Marks::default() }
+        };
+        let points: Vec<OutlinePoint> = (0..=12).map(point).collect();
+        let [area, bulge] = drawn(&points);
+        assert!((area + bulge - 0.25 * PI).abs() < 2e-3 * area && bulge > 2e-3, "{area} {bulge}");
+    }
+}
+
+/// Suspects of a table in one line, the most severe with its place; none without suspects.
+pub(in crate::report) fn suspects_line(table: &OffsetTable, found: &Suspects) -> Option<String> {
+    let worst = found.suspects.first()?;
+    table.stations.get(worst.station)?;
+    let waterline = table.waterlines.get(worst.waterline)?;
+    let form = &table.form;
+    let at = match lengths::of_heights(form) {
+        Notation::Metres => format!("{waterline:.3} m"),
+        notation => lengths::place(notation, &form.waterline_heads, *waterline),
+    };
+    Some(format!(
+        "{}: run `check`; the worst is station {}, waterline {at}: written {}, {}, expected {}",
+        counted(found.suspects.len(), "suspect cell"),
+        lengths::station(table, worst.station),
+        worst.written,
+        lengths::length(form.notation, worst.value, 4),
+        lengths::length(form.notation, worst.verdict.expected, 4)
+    ))
+}

@@ -1,0 +1,30 @@
+//! One file or folder a command: what it computes, and the files and pages about it.
+
+pub(super) mod blend;
+pub(super) mod blend_page;
+pub(super) mod catalogue;
+pub(super) mod check;
+pub(super) mod compare;
+pub(super) mod convert;
+pub(super) mod derive;
+pub(super) mod derive_page;
+pub(super) mod derived_hull;
+pub(super) mod export;
+pub(super) mod fair;
+pub(super) mod fair_curve;
+pub(super) mod fit;
+pub(super) mod generate;
+pub(super) mod generate_page;
+pub(super) mod inspect;
+pub(super) mod lines_plan;
+pub(super) mod loft;
+pub(super) mod markdown;
+pub(super) mod outputs;
+pub(super) mod overshoot;
+pub(super) mod report;
+pub(super) mod resistance;
+pub(super) mod resistance_inputs;
+pub(super) mod resistance_page;
+pub(super) mod self_test;
+pub(super) mod validate;
+pub(super) mod waves;
