@@ -53,6 +53,8 @@ impl fmt::Display for Diagnostic {
     }
 }
 
+impl std::error::Error for Diagnostic {}
+
 impl Diagnostic {
     /// What the message or its remedy says that it expected; none where neither says it.
     #[must_use]
@@ -88,8 +90,9 @@ mod tests {
             found: "0.85".into(),
             help: "Cm must be at least 0.85".into(),
         };
+        let error: &dyn std::error::Error = &diagnostic;
         assert_eq!(
-            diagnostic.to_string(),
+            error.to_string(),
             "E102 hull.toml:12:6 Cb 0.85 with Cm 0.80 gives Cp 1.06 > 1. Cm must be at least 0.85"
         );
         (diagnostic.line, diagnostic.column) = (None, None);

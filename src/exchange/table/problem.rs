@@ -61,6 +61,8 @@ impl fmt::Display for TableProblem {
     }
 }
 
+impl std::error::Error for TableProblem {}
+
 /// After so many errors, and after so many remarks, the rest is only counted.
 const MOST_LISTED: usize = 100;
 /// More errors of cells that are alike, but for what stands in the cells, are one.

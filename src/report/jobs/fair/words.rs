@@ -58,6 +58,9 @@ pub(in crate::report) fn place(job: &FairJob, change: &Change) -> String {
         (Origin::HalfBreadth { .. }, notation) if notation != Notation::Metres => {
             format!("waterline {}", lengths::place(notation, &form.waterline_heads, change.z))
         }
+        (Origin::Point { point, .. }, notation) if notation != Notation::Metres => {
+            format!("point {point} at {}", lengths::place(notation, &[], change.z))
+        }
         _ => change.origin.words(change.z),
     };
     format!("{station}, {line}")

@@ -212,28 +212,3 @@ pub(in crate::report) fn report_page(
     html.push_str(&format!("<script>\n{TABLES}</script>\n<script>\n{VIEWER}</script>\n</body></html>\n"));
     html
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn prices_that_are_rounding_are_nothing() {
-        for (metres, text) in [(-7.7e-7, "0"), (4.9e-7, "0"), (2.6e-6, "0.0026"), (1.7e-4, "0.17"), (0.0123, "12")] {
-            assert_eq!(price(&metres.into()), text);
-        }
-    }
-
-    #[test]
-    fn symbols_and_units_are_printed_as_such() {
-        for (text, html) in [
-            ("holding C_M < 1", "holding C<sub>M</sub> &lt; 1"),
-            ("L_PP = 175 m, B/2", "L<sub>PP</sub> = 175 m, B/2"),
-            ("s60_cb060_, _A", "s60_cb060_, _A"),
-            ("DTC_T13.csv KCS_MODEL C_B.csv C_WP. X_A_B", "DTC_T13.csv KCS_MODEL C_B.csv C<sub>WP</sub>. X_A_B"),
-        ] {
-            assert_eq!(lowered(text), html);
-        }
-        assert_eq!(["m3", "t m/cm", "-", "m"].map(printed_unit), ["m³", "t·m/cm", "", "m"]);
-    }
-}
