@@ -155,10 +155,7 @@ fn body_plans_fill_their_sheet_and_name_every_station() {
     }
     let record = record();
     let combs = FairingCombs::new(&record, &[]);
-    let plans = [
-        body::body_plan(&record, &combs, Sheet::A3).unwrap(),
-        arrows::compose(&record, Sheet::A3).unwrap(),
-    ];
+    let plans = [body::body_plan(&record, &combs, Sheet::A3).unwrap(), arrows::compose(&record, Sheet::A3).unwrap()];
     for plan in plans {
         let is_number = |text: &str| text.parse::<usize>().ok();
         let named: Vec<usize> = plan

@@ -41,10 +41,10 @@ pub use jobs::fair_curve::{
 };
 pub use jobs::fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit, read_fit_with};
 pub use jobs::generate::generate_outputs;
-pub use jobs::outputs::Outputs;
 pub use jobs::generate_page::summary_page;
 pub use jobs::inspect::{inspection_json, inspection_page};
 pub use jobs::loft::{LoftFormat, LoftSettings, Lofted, SkinSide, loft};
+pub use jobs::outputs::Outputs;
 pub use jobs::report::run::report_outputs;
 pub use jobs::report::settings::ReportSettings;
 pub use jobs::resistance::{ResistanceJob, ResistanceOutputs, resistance_files, resistance_outputs};

@@ -15,6 +15,9 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
     if let Some(piece) = pieces.tables.first() {
         units_below(piece, settings, problems);
         let corner = piece.rows.first().and_then(|row| Corner::of(row.first()?.trimmed()).unit);
+        for text in texts().filter(|text| text.row > 0) {
+            units_by_kind(text.trimmed(), settings, problems);
+        }
         if settings.units.or(corner).is_none()
             && let Some((text, unit)) = texts().find_map(|text| Some((text, unit_of_text(text.trimmed())?)))
         {
@@ -162,10 +165,33 @@ fn says_breadths(text: &str, is_header: bool) -> bool {
     let says = |word: &str| {
         matches!(word, "breadths" | "widths" | "beams") || is_header && matches!(word, "breadth" | "beam" | "width")
     };
+    // `B [m]`, `B` in the corner.
+    if is_header && lower.split(['[', '(']).next().is_some_and(|bare| bare.trim() == "b") {
+        return true;
+    }
+    let all: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
+    let is_of_ship = |word: &&str| matches!(*word, "breadth" | "beam" | "width");
+    // `Breadth offsets`, `Moulded breadth table`, `Beam at waterlines`, `Breadth at each waterline`.
+    let of_lines = ["offsets", "table", "waterlines", "waterline", "stations", "station"];
+    if all.iter().any(|word| is_of_ship(&word)) && all.iter().any(|word| of_lines.contains(word)) {
+        return !all.contains(&"half") && !has_value(&lower) && side_of(text).is_none();
+    }
+    if all.iter().any(|word| matches!(*word, "breadths" | "widths")) && !all.contains(&"half") && !has_value(&lower) {
+        return true;
+    }
     // `B`, `breadth moulded` and `beam 12 m` are dimensions.
     let has_number = lower.bytes().any(|b| b.is_ascii_digit());
     let is_dimension = has_number || lower.contains(['=', ':']) || lower.contains("mould") || lower.contains("mold");
     !lower.contains("half") && !is_dimension && side_of(text).is_none() && words.any(says)
+}
+
+/// Whether a text has a number behind a word for a breadth: a dimension of the ship.
+fn has_value(lower: &str) -> bool {
+    let words = ["breadth", "beam", "width"];
+    let at = words.iter().filter_map(|word| lower.find(word)).min();
+    at.is_some_and(|at| {
+        lower[at..].split([',', ';']).next().is_some_and(|part| part.bytes().any(|b| b.is_ascii_digit()))
+    })
 }
 
 /// Whether the header of a line of offsets says breadth or beam: `Beam at 2 m`.
@@ -203,6 +229,9 @@ fn is_particular(lower: &str) -> bool {
 
 fn says_full_part(lower: &str) -> bool {
     let close: String = lower.chars().filter(|c| !c.is_whitespace()).collect();
+    if lower.split(|c: char| !c.is_alphanumeric()).any(|word| matches!(word, "2y" | "2b")) {
+        return true;
+    }
     if ["2y(x", "2y(z", "2y["].iter().any(|begin| close.starts_with(begin)) {
         return true;
     }
@@ -232,6 +261,47 @@ pub(super) fn unit_of_text(text: &str) -> Option<Notation> {
         Some(unit) => unit,
         None => unit_of(text).filter(|_| text.contains(['[', '('])),
     }
+}
+
+/// Units of breadths, of heights and of distances that one text states apart: `Half-breadths in mm, heights in m`,
+/// `Half-breadths [mm] on waterlines [m]`.
+pub(super) fn units_said(text: &str) -> [Option<Notation>; 3] {
+    let lower = text.to_lowercase();
+    let mut found = [None; 3];
+    let mut kind = None;
+    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    for (k, word) in words.iter().enumerate() {
+        let named = match *word {
+            "breadths" | "halfbreadths" | "offsets" | "ordinates" => Some(1),
+            "heights" | "waterlines" | "levels" => Some(2),
+            "stations" | "distances" | "lengths" | "positions" => Some(0),
+            _ => None,
+        };
+        kind = named.or(kind);
+        let is_said = words.get(k.wrapping_sub(1)) == Some(&"in")
+            || lower.contains(&format!("[{word}]"))
+            || lower.contains(&format!("({word})"));
+        if let Some((at, unit)) = kind.zip(Notation::from_word(word).filter(|_| is_said)) {
+            found[at] = found[at].or(Some(unit));
+        }
+    }
+    found
+}
+
+/// Takes the units that a title states for more than one kind of number.
+fn units_by_kind(text: &str, settings: &mut Settings, problems: &mut Problems) {
+    let found = units_said(text);
+    if found.iter().flatten().count() < 2 || settings.units.is_some() {
+        return;
+    }
+    let [x, y, z] = found;
+    let names = [("distances", x), ("half-breadths", y), ("heights", z)];
+    let said: Vec<String> =
+        names.iter().filter_map(|(name, unit)| Some(format!("{name} in {}", (*unit)?.as_str()))).collect();
+    problems.note(format!("'{text}' states {}", said.join(", ")));
+    settings.x_units = settings.x_units.or(x);
+    settings.z_units = settings.z_units.or(z);
+    settings.units = y;
 }
 
 /// Main dimensions in two columns beside or above a table.

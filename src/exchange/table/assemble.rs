@@ -2,7 +2,7 @@
 
 use super::checks;
 use super::grid::MOST_LINES;
-use super::header::{Axis, Coordinate, Corner, From, Position, position, positions, unit_of};
+use super::header::{Axis, Coordinate, Corner, From, Position, is_level, position, positions, unit_of};
 use super::heights;
 use super::matrix::{Block, MatrixRow};
 use super::numbering::{Breadths, origin};
@@ -12,7 +12,7 @@ use super::settings::{Settings, metres};
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, SideKind, SideLine, StationDatum, StationOffsets, TableForm, Written,
 };
-use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, counted, parse_cell};
+use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, UnitError, counted, parse_cell};
 
 /// Two positions nearer than this are one \[m\].
 pub(super) const SAME: f64 = 1e-6;
@@ -114,8 +114,8 @@ impl<'a> TableReader<'a> {
     fn across_by(&self, position: Position, spacing: Option<f64>) -> f64 {
         match position.place {
             Coordinate::Number(number) => match spacing {
-                Some(spacing) if position.named => number * spacing,
-                _ => self.units.z.metres(number),
+                Some(spacing) => number * spacing,
+                None => self.units.z.metres(number),
             },
             Coordinate::Length(length) => length,
             Coordinate::AftPerpendicular | Coordinate::ForePerpendicular | Coordinate::Midship => 0.0,
@@ -138,13 +138,35 @@ impl<'a> TableReader<'a> {
         }
     }
 
+    /// Where the waterline is that is named `LWL` alone: at the draught, or at the number between its neighbours.
+    fn level(&self, fields: &[Field], found: &[Result<Position, UnitError>], what: &str) -> Option<Position> {
+        let at = fields.iter().position(|field| is_level(field.trimmed())).filter(|_| what == "waterline")?;
+        let place = match (self.settings.from_waterline.is_some(), self.settings.stated.draught) {
+            (true, _) => Coordinate::Length(0.0),
+            (false, Some(draught)) => Coordinate::Length(draught),
+            (false, None) => {
+                let number = |at: usize| match found.get(at)?.as_ref().ok()?.place {
+                    Coordinate::Number(number) => Some(number),
+                    _ => None,
+                };
+                let (before, after) = (at.checked_sub(1).and_then(number), number(at + 1));
+                let between = before.zip(after).map(|(before, after)| 0.5 * (before + after));
+                let beyond = before.zip(at.checked_sub(2).and_then(number)).map(|(near, far)| 2.0 * near - far);
+                Coordinate::Number(between.or(beyond.filter(|_| after.is_none()))?)
+            }
+        };
+        Some(Position { place, axis: Some(Axis::Waterline), named: true, end: None })
+    }
+
     /// Positions of fields; a field that names none is an error, and none is returned then.
     fn positions(&mut self, fields: &[Field], what: &str) -> Option<Vec<Position>> {
         let mut list = Vec::with_capacity(fields.len());
         let found = positions(fields.iter().map(Field::trimmed), self.form.decimal_comma);
+        let level = self.level(fields, &found, what);
         for (field, found) in fields.iter().zip(found) {
             match found {
                 Ok(position) => list.push(position),
+                Err(_) if is_level(field.trimmed()) && level.is_some() => list.extend(level),
                 Err(error) => {
                     let message = format!("the header of a {what} names no position: {error}");
                     let is_end = what == "station" && super::boat::end_of(field.trimmed()) != 0;

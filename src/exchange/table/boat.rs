@@ -92,9 +92,13 @@ pub(super) fn read(
     let (y, z) =
         (Size::of(of(Group::HalfBreadths), form.decimal_comma), Size::of(of(Group::Heights), form.decimal_comma));
     let places: Vec<Position> = heads.iter().map(|(_, position)| *position).collect();
-    let corner =
-        Corner { rows: Some(if positions_row.is_some() { Axis::X } else { Axis::Station }), ..Corner::default() };
-    let breadths = Breadths { largest: y.largest, ..Breadths::default() };
+    let corner = corner(&lines, positions_row);
+    let width = |at: usize| {
+        let cells = of_breadths(&lines).filter_map(|row| row.cells.get(at));
+        Size::of(cells, form.decimal_comma).largest / y.largest.max(f64::MIN_POSITIVE)
+    };
+    let ends = [heads.first(), heads.last()].map(|head| head.map_or(0.0, |(at, _)| width(*at)));
+    let breadths = Breadths { largest: y.largest, ends, ..Breadths::default() };
     let origin = origin(settings, corner, &places, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(places.iter()), y, z], origin.numbers, problems);
     let datum = ends_from_midship(origin.datum, settings, &places, units.x, problems);
@@ -142,6 +146,26 @@ pub(super) fn read(
         table.stations.iter().map(|s| Kept { text: s.station.name.clone(), value: s.station.x }).collect();
     table.form = reader.finish();
     Some(table)
+}
+
+/// The rows of half-breadths.
+fn of_breadths<'l, 'g>(lines: &'l Lines<'g>) -> impl Iterator<Item = &'l Row<'g>> {
+    lines.rows.iter().filter(|row| row.group == Some(Group::HalfBreadths))
+}
+
+/// What the label of the positions of stations says: their unit, and from where they count.
+fn corner(lines: &Lines<'_>, positions_row: Option<&Row<'_>>) -> Corner {
+    let names_positions = |field: &&&Field| group_of(&field.text).0 == Some(Group::Positions);
+    let above = lines.titles.iter().rev().find(names_positions).copied();
+    let label = positions_row.map(|row| row.label).or(above);
+    let Some(label) = label else { return Corner { rows: Some(Axis::Station), ..Corner::default() } };
+    let Corner { rows, unit, x_unit, from, aftward, .. } = Corner::of(label.trimmed());
+    let x_unit = x_unit.or(unit);
+    let are_distances = positions_row.is_some() || x_unit.is_some() || rows == Some(Axis::X);
+    let rows = Some(if are_distances { Axis::X } else { Axis::Station });
+    // A row of distances says itself which end is the stem.
+    let from = from.filter(|_| positions_row.is_none());
+    Corner { rows, x_unit, from, aftward, ..Corner::default() }
 }
 
 /// The stations that have a position, with the column of each.
@@ -355,8 +379,23 @@ fn written_lines(points: &[LinePoint], kept: &[usize]) -> Vec<WrittenLine> {
     lines
 }
 
-/// Turns a hull about whose stations count from its stem, by the words before their distances (`from`) or by their names;
-/// says so where neither tells. Numbers of stations have their own warning. Whether it was turned.
+/// What settles which end of a boat is the stem.
+const STEM: &str = "Name a station 'transom' or 'stem', or give stations = \"from FP\" in the conventions";
+
+/// Whether the first station is at the fuller end, where one end is full and the other fine.
+fn begins_full(table: &OffsetTable) -> Option<bool> {
+    let widths: Vec<f64> = table
+        .stations
+        .iter()
+        .map(|station| station.outlines.iter().flatten().map(|point| point.y).fold(0.0, f64::max))
+        .collect();
+    let largest = widths.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let ends = [*widths.first()? / largest, *widths.last()? / largest];
+    Breadths { largest, ends, ..Breadths::default() }.begins_full()
+}
+
+/// Turns a hull about whose stations count from its stem, by the words before their distances (`from`), by their names, or
+/// by its fuller end; says so where no word tells. Numbers of stations have their own warning. Whether it was turned.
 fn turn(table: &mut OffsetTable, settings: &Settings, from: Option<i32>, problems: &mut Problems) -> bool {
     if settings.stations.is_some() {
         return false;
@@ -367,16 +406,25 @@ fn turn(table: &mut OffsetTable, settings: &Settings, from: Option<i32>, problem
         Some(-1) => (-1, 1),
         _ => (end(table.stations.first()), end(table.stations.last())),
     };
-    let is_turned = aft == 1 || fore == -1;
+    let is_named = aft != 0 || fore != 0 || settings.sentences.names_end();
+    let by_breadths = begins_full(table).filter(|_| !is_named && from.is_some());
+    let is_turned = aft == 1 || fore == -1 || by_breadths == Some(false);
     if is_turned {
         let length = table.stations.last().map_or(0.0, |station| station.station.x);
         table.stations.iter_mut().for_each(|station| station.station.x = length - station.station.x);
         table.stations.reverse();
         problems.note("stations count from the stem; the aftmost one is at x = 0".to_owned());
+    }
+    if let Some(full) = by_breadths {
+        let end = if full { "aft" } else { "the stem" };
+        let message = format!(
+            "no name says which end is the stem: x counts from {end}, because the fuller end is the stern. From the other end \
+             the hull is turned about, and LCB changes its sign"
+        );
+        problems.warning("W320", FilePosition::FILE, message, STEM);
     } else if aft == 0 && fore == 0 && from.is_some() && !settings.sentences.names_end() {
         let message = "no name says which end is the stem: x counts from aft. From the stem the hull is turned about, and LCB changes its sign";
-        let remedy = "Name a station 'transom' or 'stem', or give stations = \"from FP\" in the conventions";
-        problems.warning("W320", FilePosition::FILE, message.to_owned(), remedy);
+        problems.warning("W320", FilePosition::FILE, message.to_owned(), STEM);
     }
     is_turned
 }

@@ -75,6 +75,12 @@ pub(super) fn is_base_line(text: &str) -> bool {
 /// Words beside the height of a waterline that name it.
 const LEVELS: [&str; 9] = ["dwl", "lwl", "cwl", "swl", "dlwl", "kwl", "clwl", "mwl", "lwp"];
 
+/// Whether a header is a level alone, as `LWL` among waterlines that are numbered.
+pub(super) fn is_level(text: &str) -> bool {
+    let name: String = text.to_lowercase().chars().filter(|c| c.is_alphabetic()).collect();
+    !text.bytes().any(|b| b.is_ascii_digit()) && LEVELS.contains(&name.as_str())
+}
+
 /// Words of a text in lower case: runs of letters, and runs of other signs left out.
 fn words(text: &str) -> Vec<String> {
     text.split(|c: char| !c.is_alphabetic()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
@@ -211,7 +217,8 @@ impl Corner {
             && of_stations
             && !counted
             && ["%", "per cent", "percent"].iter().any(|word| lower.contains(word));
-        let is_part = ["x/lpp", "x/lbp", "x / lpp"].iter().any(|words| lower.starts_with(words));
+        let close: String = lower.split(['[', '(']).next().unwrap_or("").split_whitespace().collect();
+        let is_part = ["x/lpp", "x/lbp"].iter().any(|words| close.starts_with(words)) || close == "x/l";
         let (rows, spaces) = match (is_share, is_part) {
             (true, _) => (Some(Axis::Station), Some(100.0)),
             (false, true) => (Some(Axis::Station), Some(1.0)),
@@ -352,7 +359,9 @@ pub(super) fn position(text: &str, decimal_comma: bool) -> Result<Position, Unit
     let is_digit = |c: char| c.is_ascii_digit() || matches!(c, '\u{bc}'..='\u{be}');
     let start = bare.find(is_digit).unwrap_or(bare.len());
     let is_closed = abbreviation(bare).is_some_and(|at| at + 1 == start);
-    let signed = bare[..start].ends_with('.') && !is_closed || bare[..start].ends_with(" -") || bare[..start] == *"-";
+    let signed = start < bare.len() && bare[..start].ends_with('.') && !is_closed
+        || bare[..start].ends_with(" -")
+        || bare[..start] == *"-";
     let start = if signed { start - 1 } else { start };
     let prefix_is_words = bare[..start].chars().all(|c| c.is_alphabetic() || matches!(c, ' ' | '_' | '.' | '-' | '#'));
     let rest = &bare[start..];

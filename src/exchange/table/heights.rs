@@ -1,11 +1,12 @@
 //! Heights of waterlines: the distance between those that have numbers, and the plane from which heights count.
 
 use super::assemble::TableReader;
-use super::header::{Axis, Coordinate, Corner, Position};
+use super::header::{Axis, Coordinate, Corner, Position, is_base_line};
 use super::matrix::Block;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::{Settings, metres};
-use crate::hull::{Entry, SideKind, SideLine, TableForm};
+use crate::hull::{Entry, SideKind, SideLine, StationDatum, TableForm};
+use crate::units::Notation;
 
 /// The distance between waterlines, or buttocks, that have numbers \[m\], where it is known; a warning where it is not.
 pub(super) fn spacing(block: &Block, heads: &[Position], reader: &mut TableReader<'_>) -> Option<f64> {
@@ -20,8 +21,16 @@ pub(super) fn spacing(block: &Block, heads: &[Position], reader: &mut TableReade
         _ => false,
     };
     let counts = block.across != Axis::Buttock || heads.windows(2).all(is_count);
-    if stated.is_some() || !counts || !are_numbered(block, heads, settings) {
-        return stated;
+    if let Some(spacing) = stated {
+        return counted(block, heads, spacing, noun, reader);
+    }
+    let unit = reader.units.z;
+    let is_apart = said.as_ref().is_some_and(|(spacing, _)| are_apart(heads, *spacing, unit));
+    if !counts || is_apart || !are_numbered(block, heads, settings, said.is_some()) {
+        if block.across == Axis::Waterline && said.is_none() {
+            warn_of_counts(block, heads, reader);
+        }
+        return None;
     }
     let (message, remedy) = match said {
         Some((spacing, words)) => {
@@ -44,12 +53,68 @@ pub(super) fn spacing(block: &Block, heads: &[Position], reader: &mut TableReade
     said.as_ref().map(|(spacing, _)| *spacing)
 }
 
+/// The spacing that the conventions state, where numbers count it; none, with a warning, where they are so far apart already.
+fn counted(block: &Block, heads: &[Position], spacing: f64, noun: &str, reader: &mut TableReader<'_>) -> Option<f64> {
+    let written = |(head, field): (&Position, &Field)| !head.named || is_decimal(field.trimmed());
+    let are_positions = heads.iter().zip(&block.heads).all(written) && are_apart(heads, spacing, reader.units.z);
+    if are_positions {
+        let message = format!(
+            "{noun}s are {} m apart as they are written: {noun}_spacing does not multiply them",
+            metres(spacing)
+        );
+        let remedy = format!("Take {noun}_spacing away, or name the {noun}s by their numbers");
+        reader.problems.warning("W320", FilePosition::FILE, message, &remedy);
+    }
+    Some(spacing).filter(|_| !are_positions)
+}
+
+/// Whether most plain numbers are a spacing other than 1 apart \[m\], so that they are positions and no numbers.
+fn are_apart(heads: &[Position], spacing: f64, unit: Notation) -> bool {
+    let numbers: Vec<f64> = heads.iter().filter_map(|head| plain(*head)).collect();
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-3 * b.abs();
+    let steps: Vec<f64> = numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let apart = steps.iter().filter(|step| near(unit.metres(**step), spacing)).count();
+    let by_one = steps.iter().filter(|step| near(**step, 1.0)).count();
+    apart > by_one && 2 * apart >= steps.len()
+}
+
+/// The plain number of a header.
+fn plain(head: Position) -> Option<f64> {
+    if let Coordinate::Number(number) = head.place { Some(number) } else { None }
+}
+
+/// Says where heights follow each other in whole numbers beside stations that are numbered, or above a base line.
+fn warn_of_counts(block: &Block, heads: &[Position], reader: &mut TableReader<'_>) {
+    let numbers: Vec<f64> = heads.iter().filter_map(|head| plain(*head)).collect();
+    let by_one = numbers.windows(2).all(|pair| ((pair[1] - pair[0]).abs() - 1.0).abs() < 1e-9);
+    let from_base = heads.iter().zip(&block.heads).any(|(head, field)| head.named && is_base_line(field.trimmed()));
+    let beside_numbers = matches!(reader.form.origin, StationDatum::Numbers { .. });
+    let is_written = block.heads.iter().any(|field| is_decimal(field.trimmed()));
+    if !by_one || numbers.len() < LEAST_WHOLE || is_written || !(from_base || beside_numbers) {
+        return;
+    }
+    let corner = Corner::of(block.corner.trimmed());
+    let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
+    if reader.settings.z_units.is_some() || corner.unit.is_some() && of_heights {
+        return;
+    }
+    let [first, .., last] = block.heads.as_slice() else { return };
+    let message = format!(
+        "waterlines '{}' to '{}' may be numbers, and their spacing is not known: taken as heights in {}",
+        first.trimmed(),
+        last.trimmed(),
+        reader.units.z.as_str()
+    );
+    let remedy = "Give waterline_spacing or z_units in the conventions";
+    reader.problems.warning("W320", FilePosition::FILE, message, remedy);
+}
+
 /// Fewer whole numbers among waterlines are no numbers where others have decimals.
 const LEAST_WHOLE: usize = 4;
 
-/// Whether the waterlines have numbers, as WL 0, WL 1/2, WL 1, WL 2, and nothing says how far apart they are. What is written
+/// Whether the waterlines have numbers, as WL 0, WL 1/2, WL 1, WL 2, and nothing says how far apart they are; where words do (`are_spaced`), bare numbers are such too. What is written
 /// with a decimal sign or with a unit is a height.
-fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool {
+fn are_numbered(block: &Block, heads: &[Position], settings: &Settings, are_spaced: bool) -> bool {
     let corner = Corner::of(block.corner.trimmed());
     let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
     if settings.z_units.is_some() || corner.unit.is_some() && of_heights {
@@ -65,7 +130,7 @@ fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool 
         _ => false,
     };
     let whole = block.heads.iter().filter(|field| !is_decimal(field.trimmed())).count();
-    let named = by_corner || 2 * named > heads.len();
+    let named = are_spaced || by_corner || 2 * named > heads.len();
     let mostly = whole == heads.len() || whole >= LEAST_WHOLE && 2 * whole > heads.len();
     heads.len() > 2 && named && mostly && heads.iter().zip(&block.heads).all(count)
 }

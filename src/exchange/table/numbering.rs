@@ -4,6 +4,7 @@ use super::header::{Axis, Coordinate, Corner, From, Position, is_aftward};
 use super::problem::{FilePosition, Problems};
 use super::settings::{Settings, StationScale, metres};
 use crate::hull::StationDatum;
+use crate::units::Notation;
 
 /// Spaces between perpendiculars that drawings have.
 const USUAL_SPACES: [f64; 2] = [20.0, 10.0];
@@ -66,7 +67,7 @@ pub(super) struct Breadths {
 
 impl Breadths {
     /// Whether the first station is at the fuller end, where one end is full and the other fine.
-    fn begins_full(&self) -> Option<bool> {
+    pub(super) fn begins_full(&self) -> Option<bool> {
         let [first, last] = self.ends;
         let is_full = |full: f64, fine: f64| FULL_END.contains(&full) && fine <= FINE_END * full;
         if is_full(first, last) { Some(true) } else { is_full(last, first).then_some(false) }
@@ -168,6 +169,7 @@ pub(super) fn origin(
     let (low, high) = numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
     let named = heads.iter().filter(|p| p.named || matches!(p.axis, Some(Axis::Station | Axis::Frame))).count();
     let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
+    let own_unit = settings.x_units.or(corner.x_unit).or(corner.unit);
     // A sentence counts where no key and no header says it.
     let said = settings.sentences.stations.as_ref().filter(|(scale, _)| {
         let is_open = settings.stations.is_none() && corner.from.is_none();
@@ -187,13 +189,22 @@ pub(super) fn origin(
     let corner = Corner { from: corner.from.or(end.map(|(from, _)| *from)), ..corner };
     let scale = stated.unwrap_or_else(|| {
         let are_numbers = match says {
-            Some(Axis::Station | Axis::Frame)
-                if corner.unit.or(corner.x_unit).is_none() && high - low <= MOST_NUMBERS =>
-            {
-                true
+            _ if settings.x_units.is_some() && named == 0 => false,
+            Some(Axis::Station) if own_unit.is_none() && are_distances(&numbers, settings) => {
+                let message = format!(
+                    "stations {low} to {high} are taken as distances, and not as numbers: they are not what stations are \
+                     numbered by"
+                );
+                let remedy = "Give station_spacing in the conventions if they are numbers, or x_units";
+                problems.warning("W320", FilePosition::FILE, message, remedy);
+                false
             }
+            Some(Axis::Station | Axis::Frame) if own_unit.is_none() && high - low <= MOST_NUMBERS => true,
             Some(Axis::X) => false,
             _ if 2 * named > heads.len() && high - low <= MOST_NUMBERS => true,
+            // Numbers count a spacing that is stated, and L_PP where they reach far less than it.
+            _ if own_unit.is_none() && counts(&numbers, [low, high]) && is_shorter(high - low, length, settings) => true,
+            _ if own_unit.is_none() && is_spaced(&numbers, settings) => true,
             // Without words, or with a unit beside them: a hull that would be shorter than it is broad counts its
             // stations.
             _ => {
@@ -296,6 +307,49 @@ pub(super) fn origin(
     Origin { datum: datum.into(), numbers: true, length: between.map(|spaces| spaces * spacing) }
 }
 
+/// Whether numbers in a column of stations are distances: such as no station is numbered by, and where a unit is declared,
+/// in steps that no numbers of stations have.
+fn are_distances(numbers: &[f64], settings: &Settings) -> bool {
+    let is_written = |number: &f64| ((20.0 * number) - (20.0 * number).round()).abs() < 1e-6;
+    if settings.station_spacing.or(settings.spaces).is_some() || settings.sentences.spacing.is_some() {
+        return false;
+    }
+    let length = settings.stated.length_between_perpendiculars;
+    let unit = settings.units.unwrap_or(Notation::Metres);
+    let extent = numbers.last().zip(numbers.first()).map_or(0.0, |(a, b)| (a - b).abs());
+    let is_length = length.is_none_or(|length| (unit.metres(extent) / length - 1.0).abs() < OVERHANG);
+    let strides = usual_step(numbers).is_some_and(|step| step > LARGEST_COUNT);
+    is_length && (numbers.iter().any(|number| !is_written(number)) || settings.units.is_some() && strides)
+}
+
+/// Numbers of stations are no farther apart.
+const LARGEST_COUNT: f64 = 2.5;
+
+/// The step that is in the middle of all between neighbours.
+fn usual_step(numbers: &[f64]) -> Option<f64> {
+    let mut steps: Vec<f64> = numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    steps.sort_by(f64::total_cmp);
+    steps.get(steps.len() / 2).copied()
+}
+
+/// Whether numbers of metres, or of the unit of the table, extend over less than half of L_PP.
+fn is_shorter(extent: f64, length: Option<f64>, settings: &Settings) -> bool {
+    let unit = settings.units.unwrap_or(Notation::Metres);
+    length.is_some_and(|length| unit.metres(extent) < 0.5 * length)
+}
+
+/// Whether a spacing of stations is stated that numbers count, and do not have already.
+fn is_spaced(numbers: &[f64], settings: &Settings) -> bool {
+    let said = settings.sentences.spacing.as_ref().map(|(spacing, _)| *spacing);
+    let Some(step) = usual_step(numbers) else { return false };
+    let unit = settings.units.unwrap_or(Notation::Metres);
+    let quarters = numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9);
+    match settings.station_spacing.or(said) {
+        Some(spacing) => quarters && (unit.metres(step) / spacing - 1.0).abs() > 1e-3,
+        None => quarters && settings.spaces.is_some(),
+    }
+}
+
 /// Distances among positions, in units of the table and in metres alike.
 fn lengths(heads: &[Position]) -> impl Iterator<Item = f64> {
     heads.iter().filter_map(|head| match head.place {
@@ -375,6 +429,12 @@ fn distances(
 /// Twenty or ten spaces where the numbers end there, or one before with the other end one after 0; others have to be stated.
 fn usual([low, high]: [f64; 2]) -> Option<f64> {
     let is = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    // -10 to 10 from midship are twenty spaces.
+    let overhang = OVERHANG * (high - low);
+    if -low > overhang && high > overhang {
+        let spaces = 2.0 * (-low).min(high).floor();
+        return USUAL_SPACES.into_iter().find(|&n| is(n, spaces));
+    }
     USUAL_SPACES.into_iter().find(|&n| high >= n - 1e-9 && high < n + 2.0 || is(high, n - 1.0) && is(low, 1.0))
 }
 

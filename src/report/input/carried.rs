@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-
 use crate::config::{TEMPLATES, template};
 use crate::report::failure::{Failure, problem};
 

@@ -1,10 +1,10 @@
 //! What may be wrong with the hull of a table by more than one per cent of its volume.
 
-use crate::report::words::lengths;
-use crate::units::{Notation, counted};
 use crate::fairing::Suspects;
 use crate::hull::{Hull, OffsetTable, OutlinePoint, SectionalAreaCurve, StationOffsets, enclosed};
 use crate::numeric::trapezoids;
+use crate::report::words::lengths;
+use crate::units::{Notation, counted};
 use std::f64::consts::PI;
 
 /// Part of the volume from which a doubt is a warning.

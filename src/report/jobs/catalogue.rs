@@ -7,9 +7,7 @@
 //! of coefficients, and (LCB - LCB_0)/1 % of L_PP.
 
 pub(crate) use crate::report::input::carried::catalogue_names;
-pub(in crate::report) use crate::report::input::carried::{
-    INDEX, PREFIX, carried, comment,
-};
+pub(in crate::report) use crate::report::input::carried::{INDEX, PREFIX, carried, comment};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};

@@ -6,8 +6,8 @@ use std::sync::OnceLock;
 
 use super::compare::hulls::{CompareOutputs, ComparedHull};
 use super::compare::run::{compared, comparison_files, round_draughts};
-use super::outputs::Outputs;
 use super::markdown::markdown_page;
+use super::outputs::Outputs;
 use crate::config::{DeriveFile, Diagnostic};
 use crate::derivation::{Quantity, Refusal};
 use crate::exchange::{

@@ -1,17 +1,17 @@
 //! The main job: a design in, every file about it out. Nothing is written here.
 
+use super::outputs::Outputs;
 pub(in crate::report) use crate::report::output::manifest::{
     figure_files, internal, json_file, manifest_entry, manifest_file,
 };
-use super::outputs::Outputs;
 use std::path::Path;
 use std::sync::OnceLock;
 
 use super::markdown::markdown_page;
 use crate::config::{Design, Diagnostic, Severity};
 use crate::exchange::{
-    SummaryFile, TargetLine, ValueLine, conventions_json, conventions_toml, heights_csv,
-    hydrostatics_csv, offsets_csv, row_json, write_hull,
+    SummaryFile, TargetLine, ValueLine, conventions_json, conventions_toml, heights_csv, hydrostatics_csv, offsets_csv,
+    row_json, write_hull,
 };
 use crate::hull::{Hull, OffsetStation, OffsetTable, default_buttocks, default_stations, default_waterlines};
 use crate::hydrostatics::{CurvesOfForm, default_draughts};

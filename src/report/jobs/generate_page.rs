@@ -1,8 +1,8 @@
 //! The short page of `generate`.
 
-use crate::report::words::page::{WIDTH, conventions_line, dimensions, quantities, wrapped};
 use super::outputs::Outputs;
 use crate::hydrostatics::Conventions;
+use crate::report::words::page::{WIDTH, conventions_line, dimensions, quantities, wrapped};
 
 /// The summary of the main job: at most 24 lines of 80 columns.
 #[must_use]

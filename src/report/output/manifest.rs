@@ -3,9 +3,7 @@
 use std::path::Path;
 
 use super::files::OutputFile;
-use crate::exchange::{
-    Manifest, ManifestEntry,
-};
+use crate::exchange::{Manifest, ManifestEntry};
 use crate::plot::{Figure, FigureInputs};
 use crate::report::failure::Failure;
 

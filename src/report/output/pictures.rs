@@ -1,9 +1,7 @@
 //! The sheets of a picture as files.
 
 use super::files::OutputFile;
-use crate::plot::{
-    PlotError, Svg,
-};
+use crate::plot::{PlotError, Svg};
 use crate::report::failure::Failure;
 
 /// Resolution of the pictures \[dots per inch\]: about 2600 pixels across.

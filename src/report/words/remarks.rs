@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-
 use crate::hydrostatics::Hydrostatics;
 
 /// Whether a note of what was assumed is a warning of the reader, `W320 ...`: it may change what all numbers mean.

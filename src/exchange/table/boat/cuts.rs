@@ -229,7 +229,9 @@ fn number(
         return Some(own_number);
     }
     let mut said = lines.texts().filter_map(|text| Some((text, spacing_of(text, kind)?)));
-    if let Some((text, spacing)) = said.next().filter(|_| named().next().is_some()) {
+    let sentence = if kind.half { &settings.sentences.waterlines } else { &settings.sentences.buttocks };
+    let sentence = sentence.as_ref().map(|(spacing, words)| (words.as_str(), *spacing));
+    if let Some((text, spacing)) = said.next().or(sentence).filter(|_| named().next().is_some()) {
         let message = format!("'{text}' says that {}s are {} m apart", kind.noun(), metres(spacing));
         let remedy = format!("Give {}_spacing in the conventions if it does not", kind.noun());
         reader.problems.warning("W320", FilePosition::FILE, message, &remedy);
@@ -330,9 +332,6 @@ fn spacing_of(text: &str, kind: Kind) -> Option<f64> {
     let lower = text.to_lowercase();
     let names: [&str; 4] =
         if kind.half { ["waterlines", "waterline", "wls", "wl"] } else { ["buttocks", "buttock", "butts", "butt"] };
-    if lower.contains("station") {
-        return None;
-    }
     spacing(&lower, &names)
 }
 

@@ -92,6 +92,9 @@ pub(super) fn group_of(text: &str) -> (Option<Group>, Vec<String>) {
             | "halfbreadth" | "halfbreadths" | "width" | "widths" | "halfwidth" | "halfwidths" | "beam" | "beams" => {
                 group = Some(Group::HalfBreadths)
             }
+            // `z sheer`, `sheer_y`, `Zsheer`.
+            "z" if all.len() > 1 => group = group.or(Some(Group::Heights)),
+            "y" if all.len() > 1 => group = group.or(Some(Group::HalfBreadths)),
             "diagonal" | "diagonals" | "diag" => group = Some(Group::Diagonals),
             "length" | "dist" | "distance" | "distances" | "station" | "stations" | "position" | "x" => {
                 group = group.or(Some(Group::Positions));

@@ -5,7 +5,7 @@ use crate::exchange::table::header::{From, plain_number};
 use crate::exchange::table::problem::Problems;
 use crate::exchange::table::ratio::slot;
 use crate::hull::StatedParticulars;
-use crate::units::parse_length;
+use crate::units::{Notation, parse_length};
 
 /// What sentences say of lines, each with its words.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -41,10 +41,10 @@ impl Settings {
             let words = || comment.trim().to_owned();
             let known = &mut self.sentences;
             let apart = |names: &[&str]| spacing(&lower, names).map(|found| (found, words()));
-            known.spacing = known.spacing.take().or_else(|| apart(&["station", "stations"]));
+            known.spacing = known.spacing.take().or_else(|| apart(&STATION_NAMES));
             known.frames = known.frames.take().or_else(|| apart(&["frame", "frames"]));
-            known.waterlines = known.waterlines.take().or_else(|| apart(&["waterline", "waterlines", "wl"]));
-            known.buttocks = known.buttocks.take().or_else(|| apart(&["buttock", "buttocks"]));
+            known.waterlines = known.waterlines.take().or_else(|| apart(&["waterline", "waterlines", "wl", "wls"]));
+            known.buttocks = known.buttocks.take().or_else(|| apart(&["buttock", "buttocks", "butt", "butts"]));
             if let Some((number, end)) = numbered_end(&lower).filter(|(number, _)| *number > 0.0) {
                 known.spaces = known.spaces.or(Some(number));
                 let from =
@@ -96,7 +96,9 @@ fn sentences(text: &str) -> Vec<&str> {
 /// Main dimensions with their lengths \[m\] in a text: `Lpp 100 m, B = 16 m`. Bare numbers and single letters count behind a
 /// sign alone, and a bare length may be any.
 pub(in crate::exchange::table) fn dimensions(text: &str) -> Vec<(String, f64)> {
-    let parts = text.split(';').flat_map(|part| part.split(", "));
+    let parts = || text.split(';').flat_map(|part| part.split(", ")).flat_map(|part| part.split(" x "));
+    // A letter with a unit is a dimension beside another that is named: `Lpp 120 m, B 18 m, T 7 m`.
+    let is_list = parts().filter(|part| is_named_length(part)).count() > 1;
     let dimension = |part: &str| {
         let at = part.find(|c: char| c.is_ascii_digit())?;
         let (key, value) = (part[..at].trim(), part[at..].trim().trim_end_matches('.'));
@@ -107,12 +109,21 @@ pub(in crate::exchange::table) fn dimensions(text: &str) -> Vec<(String, f64)> {
             None => parse_length(value).ok(),
         };
         let is_name = slot(&mut StatedParticulars::default(), name).is_some()
-            && (has_sign || name.chars().count() > 1)
+            && (has_sign || is_list || name.chars().count() > 1)
             && !matches!(name.to_lowercase().as_str(), "l" | "length");
         let length = length.filter(|length| is_name && *length > 0.0 && *length < 1e5)?;
         Some((name.to_owned(), length))
     };
-    parts.filter_map(dimension).collect()
+    parts().filter_map(dimension).collect()
+}
+
+/// Whether a part of a text is the name of a main dimension and a length with its unit.
+fn is_named_length(part: &str) -> bool {
+    let Some(at) = part.find(|c: char| c.is_ascii_digit()) else { return false };
+    let (name, value) = (part[..at].trim().trim_end_matches([':', '=', ' ']), part[at..].trim().trim_end_matches('.'));
+    slot(&mut StatedParticulars::default(), name).is_some()
+        && plain_number(value).is_none()
+        && parse_length(value).is_ok()
 }
 
 /// Words of a text: runs of letters and digits with decimal points.
@@ -196,10 +207,26 @@ fn counted_from(lower: &str) -> Option<StationScale> {
         let from = after("from").and_then(end)?;
         return Some(StationScale { from, numbers: true });
     }
+    // "Stations in metres from AP".
+    if let Some(from) = lengths_from(&words) {
+        return Some(StationScale { from, numbers: false });
+    }
     // "x from FP, positive aft", "Distances from the stem", "Distance aft of FP", "Origin at FP"; not "Distance from FP to AP".
     let is_distance = |at: usize| DISTANCES.contains(&words[at]) || at == 0 && DISTANCE.contains(&words[0]);
     let from = behind(&words, is_distance).or_else(|| origin(&words))?;
     Some(StationScale { from, numbers: false })
+}
+
+/// The end in "stations in metres from AP": a unit says that they are distances.
+fn lengths_from(words: &[&str]) -> Option<From> {
+    let after = |at: usize| {
+        let rest = &words[at + 1..];
+        let filling = rest.iter().take_while(|word| FILLING.contains(*word)).count();
+        let has_unit =
+            rest.windows(2).take(filling).any(|pair| pair[0] == "in" && Notation::from_word(pair[1]).is_some());
+        if has_unit { (0..=filling).find_map(|k| from_end(&rest[k..])) } else { None }
+    };
+    (0..words.len()).filter(|at| STATIONS.contains(&words[*at])).find_map(after)
 }
 
 /// The point in "Origin at FP", "origin of x: FP", "x = 0 at FP".
@@ -242,7 +269,57 @@ fn stations_from(lower: &str) -> Option<From> {
 /// Lines are no farther apart \[m\]; larger bare numbers are millimetres.
 const FARTHEST: f64 = 40.0;
 
-/// The distance between lines of these names in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in".
+/// Names of stations in sentences.
+const STATION_NAMES: [&str; 9] =
+    ["station", "stations", "sta", "stn", "stns", "section", "sections", "ordinate", "ordinates"];
+
+/// Names of lines in sentences.
+const LINES: [&str; 19] = [
+    "station",
+    "stations",
+    "sta",
+    "stn",
+    "stns",
+    "section",
+    "sections",
+    "ordinate",
+    "ordinates",
+    "frame",
+    "frames",
+    "waterline",
+    "waterlines",
+    "wl",
+    "wls",
+    "buttock",
+    "buttocks",
+    "butt",
+    "butts",
+];
+
+/// Words for the distance between lines.
+const SPACED: [&str; 7] = ["apart", "spacing", "spacings", "spaced", "interval", "intervals", "every"];
+
+/// The parts of a sentence that speak of lines of one kind: "Stations 6 m apart, waterlines 1.5 m apart".
+fn clauses(lower: &str) -> Vec<String> {
+    let names_lines = |text: &str| words(text).iter().any(|word| LINES.contains(word));
+    let mut list: Vec<String> = Vec::new();
+    for part in lower.split(';').flat_map(|part| part.split(" and ")).flat_map(|part| part.split(" / ")) {
+        list.push(String::new());
+        for piece in part.split(", ") {
+            match list.last_mut() {
+                Some(last) if !(names_lines(last) && names_lines(piece)) => {
+                    last.push(' ');
+                    last.push_str(piece);
+                }
+                _ => list.push(piece.to_owned()),
+            }
+        }
+    }
+    list
+}
+
+/// The distance \[m\] between lines of these names in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in",
+/// "stations every 6 m", "distance between stations 6 m", "6 m station interval".
 pub(in super::super) fn spacing(lower: &str, names: &[&str]) -> Option<f64> {
     let length = |words: &[&str]| {
         let text = words.join(" ");
@@ -251,25 +328,33 @@ pub(in super::super) fn spacing(lower: &str, names: &[&str]) -> Option<f64> {
         let length = parse_length(text).ok().filter(|l| *l > 0.0 && l.is_finite());
         length.map(|length| if in_millimetres { 1e-3 * length } else { length })
     };
-    let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
-    if let Some((before, _)) = lower.split_once(" apart") {
-        let words: Vec<&str> = before.split_whitespace().collect();
-        // The number follows the lines, or stands one word behind them.
-        let at = words.iter().rposition(|word| names.contains(&word.trim_end_matches(',')))?;
-        let from = at + 1 + words[at + 1..].iter().take(2).position(is_number)?;
-        return length(&words[from..]);
-    }
-    let named = |name: &&str| {
-        let known = [format!("{name} spacing"), format!("spacing of {name}"), format!("spacing of the {name}")];
-        known.iter().find_map(|known| lower.split_once(known.as_str())).map(|(_, after)| after)
+    let is_number = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
+    let bare = |word: &str| word.trim_end_matches(['.', ',']).to_owned();
+    // A number alone is all that is left before the end, or before the word for the distance.
+    let first_length = |words: &[&str]| {
+        let starts = (0..words.len()).filter(|at| is_number(words[*at]));
+        starts
+            .flat_map(|at| (1..=4).rev().filter_map(move |count| Some((at, words.get(at..at + count)?))))
+            .filter(|(at, list)| list.len() > 1 || words.len() == at + 1)
+            .find_map(|(_, list)| length(list))
     };
-    let after = names.iter().find_map(named)?;
-    let words: Vec<&str> = after.split([' ', ':', '=', ',', '\t']).filter(|word| !word.is_empty()).collect();
-    let from = words.iter().take(2).position(is_number)?;
-    // A number alone is all that is left of the sentence.
-    (1..=4)
-        .rev()
-        .filter_map(|count| words.get(from..from + count))
-        .filter(|list| list.len() > 1 || words.len() == from + 1)
-        .find_map(length)
+    clauses(lower).iter().find_map(|clause| {
+        let words: Vec<&str> =
+            clause.split([' ', ':', '=', '(', ')', '\t']).filter(|word| !word.trim_matches(',').is_empty()).collect();
+        let at = words.iter().position(|word| names.contains(&bare(word).as_str()))?;
+        let is_between = words.windows(2).any(|pair| pair == ["distance", "between"]);
+        let spaced = words.iter().rposition(|word| SPACED.contains(&bare(word).as_str()));
+        if spaced.is_none() && !is_between {
+            return None;
+        }
+        let rest = &words[at + 1..];
+        let end = rest
+            .iter()
+            .rposition(|word| SPACED.contains(&bare(word).as_str()))
+            .filter(|end| rest[..*end].iter().any(|word| is_number(word)));
+        first_length(&rest[..end.unwrap_or(rest.len())]).or_else(|| {
+            let before = &words[..at];
+            first_length(&before[before.iter().position(|word| is_number(word))?..])
+        })
+    })
 }

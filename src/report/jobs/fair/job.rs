@@ -10,17 +10,15 @@ use crate::config::{self, Diagnostic, JobFile};
 use crate::exchange::{
     COMPROMISE_LINE, CurveProblem, ManifestEntry, RoundingEffect, Severity, TableProblem, read_curve, write_hull,
 };
+use crate::fairing::ProposedLine;
 use crate::fairing::fair::FairError;
 use crate::fairing::job::{Job, JobError};
 use crate::fairing::outcome::Outcome;
-use crate::fairing::ProposedLine;
 use crate::hull::{FitError, Hull, HullError, OffsetTable, TableLayout};
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Given, Hydrostatics};
 use crate::qp::Status;
 use crate::report::failure::{Failure, problem};
-use crate::report::input::source::{
-    Overrides, is_toml, merged, read_bytes, read_table_stated, ship_name, utf8,
-};
+use crate::report::input::source::{Overrides, is_toml, merged, read_bytes, read_table_stated, ship_name, utf8};
 use crate::report::output::files::OutputFile;
 use crate::report::output::manifest::manifest_entry;
 use crate::units::Notation;

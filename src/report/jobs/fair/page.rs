@@ -3,9 +3,7 @@
 use super::held::{hydrostatics, volume_of, volumes};
 use super::job::{FairJob, FairOutputs};
 use super::short::headline;
-pub(in crate::report) use super::words::{assumed, 
-    counted, dimensions, limit, millimetres, place, tolerances,
-};
+pub(in crate::report) use super::words::{assumed, counted, dimensions, limit, millimetres, place, tolerances};
 use crate::exchange::{reached, status_word};
 use crate::fairing::outcome::{Change, Outcome};
 use crate::fairing::proposals::Proposal;

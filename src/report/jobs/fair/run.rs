@@ -1,20 +1,22 @@
 //! The job of `fair`, run: the fair hull with its certificate. Nothing is written here.
 
-use super::job::{FairJob, FairOutputs, conventions_beside, fitted, hull_file, hull_text, mark, marked_name, offsets_name, overrides, refused, row};
+use super::job::{
+    FairJob, FairOutputs, conventions_beside, fitted, hull_file, hull_text, mark, marked_name, offsets_name, overrides,
+    refused, row,
+};
 
 use serde_json::{Value, json};
 
 use super::grades;
 use crate::exchange::{
-    Particulars, RoundingEffect, TableWriting,
-    changes_csv, control_polygon_csv, conventions_json, fairing_json, read_table_with, row_json,
-    status_word, write_table,
+    Particulars, RoundingEffect, TableWriting, changes_csv, control_polygon_csv, conventions_json, fairing_json,
+    read_table_with, row_json, status_word, write_table,
 };
+use crate::fairing::Progress;
 use crate::fairing::held::Held;
 use crate::fairing::job::Holding;
 use crate::fairing::outcome::Outcome;
 use crate::fairing::record::FairRecord;
-use crate::fairing::Progress;
 use crate::hull::{Functional, OffsetTable};
 use crate::hydrostatics::Hydrostatics;
 use crate::qp::Status;

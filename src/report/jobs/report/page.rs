@@ -1,8 +1,8 @@
 //! `report.html`: one page that opens without a network: the hull in space, the figures, and tables that can be sorted.
 
 pub(in crate::report) use super::cells::{
-    NO_DESIGN_DRAUGHT, lowered, marked, PRICES, Table, changes, condition, constraints, escape, figures, hydrostatics, inflections,
-    inflections_words, list, suspects, text,
+    NO_DESIGN_DRAUGHT, PRICES, Table, changes, condition, constraints, escape, figures, hydrostatics, inflections,
+    inflections_words, list, lowered, marked, suspects, text,
 };
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;

@@ -1,6 +1,5 @@
 //! What a report is made with.
 
-
 use crate::plot::Sheet;
 
 /// What a report is made with.
