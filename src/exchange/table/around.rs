@@ -56,12 +56,7 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
     if let Some(text) = open.filter(|_| settings.full.is_none() && !says_half) {
         match pieces.tables.first().and_then(|piece| by_dimensions(piece, settings)) {
             Some((full, why)) => {
-                let taken = if full { "full breadths" } else { "half-breadths" };
-                let message = format!(
-                    "'{}' does not say whether breadths are half or full: taken as {taken}, {why}",
-                    text.trimmed()
-                );
-                problems.warning("W320", text.place(), message, HALF_OR_FULL);
+                problems.warning("W320", text.place(), taken(text.trimmed(), full, &why), HALF_OR_FULL);
                 settings.full = Some(full);
             }
             None => problems.warning("W320", text.place(), half_taken(text.trimmed()), HALF_OR_FULL),
@@ -96,7 +91,12 @@ fn by_dimensions(piece: &Piece, settings: &Settings) -> Option<(bool, String)> {
     let is_long =
         corner.rows.is_none_or(|axis| axis == Axis::X) && settings.stations.is_none_or(|scale| !scale.numbers);
     let by_stations = is_long.then(|| unit.metres(extent[1] - extent[0]));
-    let length = settings.stated.length_between_perpendiculars.or(by_stations)?;
+    by_slenderness(settings.stated.length_between_perpendiculars.or(by_stations)?, largest)
+}
+
+/// Whether breadths up to `largest` \[m\] are full on a hull of some length \[m\]: where one reading alone gives the L/B of a ship;
+/// with the reason.
+pub(super) fn by_slenderness(length: f64, largest: f64) -> Option<(bool, String)> {
     let [full, half] = [length / largest, 0.5 * length / largest];
     let why = |ratio: f64, other: f64| format!("because L/B is {ratio:.1}, and {other:.1} otherwise");
     match (SLENDER.contains(&full), SLENDER.contains(&half)) {
@@ -143,6 +143,12 @@ fn take_full(text: &Field, settings: &mut Settings, problems: &mut Problems) {
 
 /// What settles whether breadths are half ones.
 pub(super) const HALF_OR_FULL: &str = "Give breadths = \"half\" or breadths = \"full\" in the conventions";
+
+/// Says that breadths are taken as full or half ones, and why.
+pub(super) fn taken(name: &str, full: bool, why: &str) -> String {
+    let taken = if full { "full breadths" } else { "half-breadths" };
+    format!("'{name}' does not say whether breadths are half or full: taken as {taken}, {why}")
+}
 
 /// Says that breadths are taken as half ones.
 pub(super) fn half_taken(name: &str) -> String {

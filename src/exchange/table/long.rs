@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::around::{HALF_OR_FULL, UPWARD, half_taken, says_full, unit_of_text};
+use super::around::{HALF_OR_FULL, UPWARD, by_slenderness, half_taken, says_full, taken, unit_of_text};
 use super::columns::{Column, KNOWN, Named, Whole, breadths, column, is_ordinate};
 use super::fields::decimals;
 use super::header::{Axis, axis_of, begins_as_number, counts_down, position};
@@ -17,6 +17,7 @@ use super::settings::Settings;
 use super::sides::{Sides, sides};
 use super::tidy;
 use crate::hull::{OffsetTable, TableForm};
+use crate::units::Notation;
 
 /// Station numbers follow each other in steps up to this.
 const LARGEST_STEP: f64 = 2.0;
@@ -178,11 +179,12 @@ pub(super) fn read(
         settings.full = Some(true);
     }
     left_out(header, &columns, problems);
-    if let Some(at) = columns.unsaid.filter(|_| settings.full.is_none()) {
-        problems.warning("W320", header[at].place(), half_taken(header[at].trimmed()), HALF_OR_FULL);
-    }
     let comma = form.decimal_comma;
     let mut points = points(rows, header, &columns, problems)?;
+    if let Some(at) = columns.unsaid.filter(|_| settings.full.is_none()) {
+        let is_placed = columns.find(Column::X).is_some();
+        settings.full = weighed(&header[at], &points, (comma, is_placed), &settings, problems);
+    }
     let digits = points.iter().map(|point| decimals(&point.y.text.replace(',', "."))).max().unwrap_or(0);
     let scaled = fractions(&mut points, &columns, comma, &settings, problems)?;
     let is_spaced =
@@ -208,6 +210,34 @@ pub(super) fn read(
         table.form.decimals = Some(decimals_in_metres(digits, largest));
     }
     Some(table)
+}
+
+/// Whether breadths without a word for half or full are full, by L/B; says what was taken.
+fn weighed(
+    header: &Field,
+    points: &[Point],
+    (comma, is_placed): (bool, bool),
+    settings: &Settings,
+    problems: &mut Problems,
+) -> Option<bool> {
+    let range = |field: fn(&Point) -> &Field| {
+        let numbers = points.iter().filter_map(|point| number(field(point), comma));
+        numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], n| [low.min(n), high.max(n)])
+    };
+    let ([aft, fore], [_, largest]) = (range(|point| &point.x), range(|point| &point.y));
+    let [x, y] = [settings.x_units, settings.units].map(|unit| unit.unwrap_or(Notation::Metres));
+    let by_stations = is_placed.then(|| x.metres(fore - aft));
+    let length = settings.stated.length_between_perpendiculars.or(by_stations);
+    match length.and_then(|length| by_slenderness(length, y.metres(largest))) {
+        Some((full, why)) => {
+            problems.warning("W320", header.place(), taken(header.trimmed(), full, &why), HALF_OR_FULL);
+            Some(full)
+        }
+        None => {
+            problems.warning("W320", header.place(), half_taken(header.trimmed()), HALF_OR_FULL);
+            None
+        }
+    }
 }
 
 /// Units that the headers state.
@@ -437,8 +467,19 @@ fn distances(
 
 /// Waterlines that follow each other in whole numbers are heights, or numbers that the conventions space.
 fn waterlines(points: &mut [Point], columns: &Columns, settings: &Settings, problems: &mut Problems) {
-    let named = columns.find(Column::Waterline).filter(|_| columns.find(Column::Z).is_none());
-    let Some((_, named)) = named.filter(|(_, named)| named.fraction.is_none()) else { return };
+    let by_name = columns.find(Column::Waterline).filter(|_| columns.find(Column::Z).is_none());
+    // A spacing that is stated counts heights that follow each other by one.
+    let by_count = columns.height().filter(|(_, named)| {
+        let steps = steps(points.iter().map(|point| &point.z), false);
+        let count = |(values, steps): &(Vec<f64>, Vec<f64>)| {
+            let by_one = steps.iter().filter(|step| (**step - 1.0).abs() < 1e-9).count();
+            2 * by_one > steps.len() && values.iter().all(|value| (4.0 * value).fract().abs() < 1e-9)
+        };
+        named.unit.or(settings.z_units).is_none()
+            && settings.waterline_spacing.is_some()
+            && steps.as_ref().is_some_and(count)
+    });
+    let Some((_, named)) = by_name.or(by_count).filter(|(_, named)| named.fraction.is_none()) else { return };
     if let Some(spacing) = settings.waterline_spacing {
         for field in points.iter_mut().map(|point| &mut point.z) {
             if let Some(value) = number(field, false) {
