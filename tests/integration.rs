@@ -14,6 +14,7 @@ mod body_skins;
 mod book;
 mod catalogue;
 mod charts;
+mod circles;
 mod cli;
 mod cli_refusals;
 mod codes;

@@ -14,7 +14,8 @@ use crate::hull::{
     FitMethod, LeastSquares, NetKnots, ParametricStations, QuadraticNet, SettingProblem, StatedParticulars,
     UniformBicubic,
 };
-use crate::spline::{MAX_DEGREE, Parametrization};
+use crate::spline::basis::MAX_DEGREE;
+use crate::spline::Parametrization;
 
 /// Words for `method.kind`.
 pub const METHODS: [&str; 6] =

@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::hydrostatics::ConventionsRecord;
 use crate::hull::{Hull, HullError, PrincipalParticulars};
 use crate::hydrostatics::Conventions;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE, SplineError};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
+use crate::spline::basis::MAX_DEGREE;
 use crate::units::{NAME_REMEDY, name_fault};
 
 const FORMAT: &str = "loftsman-hull";

@@ -16,7 +16,7 @@
 //! counted from the table.
 
 use super::compromise::Basic;
-use super::fair::FairError;
+use super::error::FairError;
 use super::model::{Model, value};
 use super::program::{Program, RowName, Wishes, symmetric};
 use super::smoothing::Smoother;

@@ -8,7 +8,7 @@
 //! widening is asked for again.
 
 use super::constraint::{Constraint, between, broken, control_values};
-use super::fair::FairError;
+use super::error::FairError;
 use super::infeasible::{Diagnosis, Ends, Target, diagnose, least_widening, nearest};
 use super::model::Model;
 use super::program::{Between, Program, Solved, Wishes};

@@ -5,7 +5,8 @@
 //! stationary, so that J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd. Without targets the answer is the field itself.
 
 use super::constraint::{Constraint, Rule, breadths};
-use super::fair::{FairError, FairSettings, Prepared};
+use super::error::FairError;
+use super::fair::{FairSettings, Prepared};
 use super::field::likelihood::ALLOWED;
 use super::field::observed::{DOUBTFUL, Observations};
 use super::field::points::Points;

@@ -2,7 +2,7 @@
 //! it is done: `run`; what it comes to: [`super::outcome`].
 
 use super::constraint::{Constraint, Rule};
-use super::fair::FairError;
+use super::error::FairError;
 use super::least_waves::WaveAim;
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::proposals::Accepted;

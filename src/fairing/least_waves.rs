@@ -11,7 +11,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use super::fair::FairError;
+use super::error::FairError;
 use super::humps::Question;
 use super::program::{Program, Solved, Wishes, symmetric};
 use super::surface::FairSurface;

@@ -23,7 +23,7 @@
 //! spread and crowd with the waterlines.
 
 use super::cells::{Cells, Combination, Crossing, ORDERS, Place, Row, add_square};
-use super::surface::ANISOTROPY;
+
 use crate::numeric::SymmetricBand;
 use crate::spline::{BsplineSurface, binomial};
 
@@ -294,6 +294,9 @@ impl Jumped {
         (self.speed * at.length).powi(2)
     }
 }
+
+/// w_u, the weight of bending along the ship; w_v is its inverse.
+pub(super) const ANISOTROPY: f64 = 0.6;
 
 #[cfg(test)]
 mod tests {

@@ -11,6 +11,7 @@ mod compromise;
 pub mod constraint;
 pub mod curve;
 mod determined;
+pub mod error;
 pub mod fair;
 pub mod field;
 mod fielded;

@@ -6,11 +6,12 @@
 //! weight with and without it: the root of the mean square of what the offsets depart, and by how much sum w r^2 +
 //! lambda E falls, in units of the square of the noise.
 
-use super::fair::FairError;
+use super::error::FairError;
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::model::Model;
 use super::smoothing::Smoother;
-use super::surface::{ANISOTROPY, FairSurface, energy as plain_energy};
+use super::metric::ANISOTROPY;
+use super::surface::{FairSurface, energy as plain_energy};
 use super::unbroken::{AT_KNOT, Along, Breaks, runs_on};
 use crate::hull::{self, FeatureLine, Hull, HullError, OffsetTable};
 use crate::spline::KnotVector;

@@ -11,7 +11,7 @@
 //! problem.
 
 use super::constraint::Constraint;
-use super::fair::FairError;
+use super::error::FairError;
 use super::model::Limit;
 use super::program::{Program, RowName, Solved};
 use super::smoothing::Smoother;

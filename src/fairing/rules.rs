@@ -2,7 +2,7 @@
 
 use super::bends::{Bend, Line, bends};
 use super::constraint::{Rule, inflections};
-use super::fair::FairError;
+use super::error::FairError;
 use super::least::TableLine;
 use super::model::Limit;
 use super::program::{Program, Solved};

@@ -24,9 +24,6 @@ const CENTREPLANE: f64 = 1e-9;
 /// of published tables, and ends that are open have 2e-3 and more.
 const ENDS: f64 = 1e-5;
 
-/// w_u, the weight of bending along the ship; w_v is its inverse.
-pub(super) const ANISOTROPY: f64 = 0.6;
-
 /// Where a reading comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {

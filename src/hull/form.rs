@@ -17,7 +17,8 @@
 
 use super::chart;
 use super::particulars::PrincipalParticulars;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE, SplineError};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
+use crate::spline::basis::MAX_DEGREE;
 
 /// Coordinates of the net that differ by less than this part of the largest one differ by rounding: a net that falls by
 /// less does not fall, and stations on which x differs by less are upright.

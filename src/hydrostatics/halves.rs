@@ -7,7 +7,7 @@
 use super::station::{StationSpan, Stations};
 use crate::hull::{Hull, Immersion};
 use crate::numeric::gauss_legendre;
-use crate::spline::MAX_DEGREE;
+use crate::spline::basis::MAX_DEGREE;
 
 /// The volume between the start of the span `span` in u and x = `midship` (negative when midship is aft of it), both
 /// sides, below each immersion; none where the deck is immersed.

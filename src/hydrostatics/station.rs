@@ -13,7 +13,7 @@ use super::expansion::{Expansion, Series, Transform};
 use super::volume::{Node, node_at};
 use crate::hull::{Hull, KnotLines};
 use crate::numeric::gauss_legendre;
-use crate::spline::MAX_DEGREE;
+use crate::spline::basis::MAX_DEGREE;
 
 /// Nodes at most on a piece.
 const MOST: usize = 2 * MAX_DEGREE + 2;

@@ -177,24 +177,4 @@ impl Problem {
         let curved = self.curved(x);
         x.iter().zip(&curved).zip(&self.linear).map(|((x, p), q)| x * (0.5 * p + q)).sum()
     }
-
-    /// Solves.
-    ///
-    /// # Errors
-    /// [`ProblemError`] when shapes or numbers are wrong; not solving is a [`Status`].
-    pub fn solve(&self, settings: &Settings) -> Result<Solution, ProblemError> {
-        Ok(super::structured::Solver::new(self, settings)?.solve())
-    }
-
-    /// Solves from a point of a similar problem.
-    ///
-    /// # Errors
-    /// [`ProblemError`] when shapes or numbers are wrong.
-    pub fn solve_from(&self, settings: &Settings, start: Option<&Interior>) -> Result<Solution, ProblemError> {
-        let mut solver = super::structured::Solver::new(self, settings)?;
-        if let Some(start) = start {
-            solver.start_from(start)?;
-        }
-        Ok(solver.solve())
-    }
 }

@@ -4,7 +4,7 @@
 //! N_{i+1,j-1} upward from the one function of degree 0. A derivative of order m starts m rows lower and climbs with
 //! N'_{i,j} = j (N_{i,j-1} / (t_{i+j} - t_i) - N_{i+1,j-1} / (t_{i+j+1} - t_{i+1})). The reciprocals are precomputed.
 
-use super::knots::{HIGHEST_DEGREE, MAX_DEGREE};
+
 
 /// One value for each basis function of a span; those beyond the degree are 0.
 pub(super) type BasisValues = [f64; MAX_DEGREE + 1];
@@ -85,3 +85,10 @@ pub(super) fn blossom_row(knots: &[f64], span: usize, arguments: &[f64]) -> Wide
     }
     values
 }
+
+/// The highest degree of a spline whose bases are asked for: of nets of hulls, of fits.
+pub const MAX_DEGREE: usize = 7;
+
+/// The highest degree of a spline that is evaluated, cut and clamped, as CAD files have them.
+pub const HIGHEST_DEGREE: usize = 15;
+

@@ -5,7 +5,7 @@
 //! radius R has the principal and mean curvature -1/R and the Gaussian curvature 1/R^2.
 
 use super::curve::BsplineCurve;
-use super::evaluate::SurfaceJet;
+use super::jet::SurfaceJet;
 use super::vector::{cross, dot};
 
 /// Curvatures of a surface at a point.

@@ -141,7 +141,7 @@ impl Energy {
 }
 
 /// Derivatives of order `order` of the basis functions at `t`, and the index of the first of them.
-fn derivative_row(knots: &KnotVector, order: usize, t: f64) -> (usize, [f64; super::MAX_DEGREE + 1]) {
+fn derivative_row(knots: &KnotVector, order: usize, t: f64) -> (usize, [f64; crate::spline::basis::MAX_DEGREE + 1]) {
     match order {
         0 => {
             let (first, [row]) = knots.orders_at::<1>(t);
@@ -152,8 +152,8 @@ fn derivative_row(knots: &KnotVector, order: usize, t: f64) -> (usize, [f64; sup
             (first, rows[order])
         }
         _ => {
-            let (first, rows) = knots.orders_at::<{ super::MAX_DEGREE + 1 }>(t);
-            (first, rows[order.min(super::MAX_DEGREE)])
+            let (first, rows) = knots.orders_at::<{ crate::spline::basis::MAX_DEGREE + 1 }>(t);
+            (first, rows[order.min(crate::spline::basis::MAX_DEGREE)])
         }
     }
 }
@@ -163,7 +163,7 @@ fn derivative_row(knots: &KnotVector, order: usize, t: f64) -> (usize, [f64; sup
 pub struct MinimumEnergy {
     energy: Energy,
     /// For each condition the first basis function it meets and its row.
-    rows: Vec<(usize, [f64; super::MAX_DEGREE + 1])>,
+    rows: Vec<(usize, [f64; crate::spline::basis::MAX_DEGREE + 1])>,
     slacks: Vec<f64>,
     /// Position of coefficients, then of multipliers, in the banded system, and the scale of each.
     position: Vec<usize>,

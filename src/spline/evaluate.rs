@@ -5,25 +5,9 @@
 //! needs no bases. A grid computes the bases once a line and collapses the net once a line u = constant, after which a
 //! point costs O(q).
 
-use super::knots::MAX_DEGREE;
+use super::jet::{SurfaceJet, add};
+use super::basis::MAX_DEGREE;
 use super::surface::BsplineSurface;
-
-/// Point and partial derivatives up to the second order of a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfaceJet<const D: usize> {
-    /// S
-    pub point: [f64; D],
-    /// S_u
-    pub du: [f64; D],
-    /// S_v
-    pub dv: [f64; D],
-    /// S_uu
-    pub duu: [f64; D],
-    /// S_uv
-    pub duv: [f64; D],
-    /// S_vv
-    pub dvv: [f64; D],
-}
 
 /// Point and first partial derivatives of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,7 +90,7 @@ impl<const D: usize> BsplineSurface<D> {
     #[inline]
     pub fn jet(&self, u: f64, v: f64) -> SurfaceJet<D> {
         if self.u().degree() == 3 && self.v().degree() == 3 {
-            return self.powers().jet(self, u, v);
+            return self.powers().jet(self.parts(), u, v);
         }
         by_degree!(self, jet_fixed, (u, v), {
             let d = self.derivatives::<3>(u, v);
@@ -120,7 +104,7 @@ impl<const D: usize> BsplineSurface<D> {
     #[inline]
     pub fn point_of_many(&self, u: f64, v: f64) -> [f64; D] {
         if self.u().degree() == 3 && self.v().degree() == 3 {
-            return self.powers().point(self, u, v);
+            return self.powers().point(self.parts(), u, v);
         }
         by_degree!(self, point_fixed, (u, v), { self.eval(u, v) })
     }
@@ -265,13 +249,6 @@ fn combine<const K: usize, const L: usize>(weights: &[f64; K], points: &[[f64; L
         }
     }
     sum
-}
-
-#[inline(always)]
-pub(super) fn add<const D: usize>(sum: &mut [f64; D], weight: f64, point: &[f64; D]) {
-    for (s, c) in sum.iter_mut().zip(point) {
-        *s += weight * c;
-    }
 }
 
 #[cfg(test)]

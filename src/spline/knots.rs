@@ -1,14 +1,9 @@
 //! Knot vectors and the B-spline basis over them (Piegl & Tiller 1997, chapter 2; de Boor 2001, chapter IX).
 
+use super::basis::{HIGHEST_DEGREE, MAX_DEGREE};
 use super::basis::{BasisValues, WideValues, basis_orders, padded_orders};
 use super::table::{Cubic, SpanTable};
 use std::sync::Arc;
-
-/// The highest degree of a spline whose bases are asked for: of nets of hulls, of fits.
-pub const MAX_DEGREE: usize = 7;
-
-/// The highest degree of a spline that is evaluated, cut and clamped, as CAD files have them.
-pub const HIGHEST_DEGREE: usize = 15;
 
 /// Why data do not make a spline.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -148,7 +148,7 @@ impl KnotVector {
     /// [`SplineError::PointCount`] when there are fewer than `count + degree + 1` knots or `count` is below `degree + 1`;
     /// [`SplineError::Knot`] when they decrease; and as [`KnotVector::new`].
     pub fn from_unclamped(degree: usize, knots: &[f64], count: usize) -> Result<Self, SplineError> {
-        if !(1..=super::MAX_DEGREE).contains(&degree) {
+        if !(1..=crate::spline::basis::MAX_DEGREE).contains(&degree) {
             return Err(SplineError::Degree(degree));
         }
         if count < degree + 1 || knots.len() < count + degree + 1 {
@@ -172,7 +172,7 @@ impl KnotVector {
         count: usize,
         interior: impl Fn(usize) -> Vec<f64>,
     ) -> Result<Self, SplineError> {
-        if !(1..=super::MAX_DEGREE).contains(&degree) {
+        if !(1..=crate::spline::basis::MAX_DEGREE).contains(&degree) {
             return Err(SplineError::Degree(degree));
         }
         if count < degree + 1 {

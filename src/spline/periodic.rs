@@ -6,7 +6,8 @@
 //! becomes a banded one when the unknowns are taken in the order 0, n - 1, 1, n - 2, ...
 
 use super::curve::BsplineCurve;
-use super::knots::{KnotVector, MAX_DEGREE, SplineError};
+use super::knots::{KnotVector, SplineError};
+use super::basis::MAX_DEGREE;
 use super::parametrize::check_sites;
 use super::refine::{apply, refinement_rows};
 use super::surface::BsplineSurface;

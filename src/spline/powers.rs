@@ -4,9 +4,17 @@
 //! span instead of one control point. The ends of the domain are spans of their own, so that corners stay control points
 //! exactly; elsewhere the rounding error is a few 1e-16 of the size of the net, as with the basis functions.
 
-use super::evaluate::{SurfaceJet, add};
-use super::surface::BsplineSurface;
+use super::jet::{SurfaceJet, add};
+use super::knots::KnotVector;
 use std::sync::{Arc, OnceLock};
+
+/// Knots and net of a surface, `u` slowest.
+#[derive(Clone, Copy)]
+pub(super) struct Parts<'s, const D: usize> {
+    pub(super) u: &'s KnotVector,
+    pub(super) v: &'s KnotVector,
+    pub(super) points: &'s [[f64; D]],
+}
 
 /// `[m][n]` belongs to (u - u_k)^m (v - v_l)^n.
 type Patch<const D: usize> = [[[f64; D]; 4]; 4];
@@ -29,12 +37,12 @@ impl<const D: usize> std::fmt::Debug for Powers<D> {
 }
 
 impl<const D: usize> Powers<D> {
-    /// The point at (u, v) of the bicubic `surface` to which these polynomials belong.
+    /// The point at (u, v) of the bicubic surface to which these polynomials belong.
     #[inline(never)]
-    pub(super) fn point(&self, surface: &BsplineSurface<D>, u: f64, v: f64) -> [f64; D] {
-        let patches = self.0.get_or_init(|| patches(surface)).as_slice();
-        let ((k, x), (l, y)) = (surface.u().cubic_at(u), surface.v().cubic_at(v));
-        let [a0, a1, a2, a3] = &patches[k * surface.v().cubics().len() + l];
+    pub(super) fn point(&self, net: Parts<'_, D>, u: f64, v: f64) -> [f64; D] {
+        let patches = self.0.get_or_init(|| patches(net)).as_slice();
+        let ((k, x), (l, y)) = (net.u.cubic_at(u), net.v.cubic_at(v));
+        let [a0, a1, a2, a3] = &patches[k * net.v.cubics().len() + l];
         let mut point = [0.0; D];
         for (d, value) in point.iter_mut().enumerate() {
             let across = |n: usize| ((a3[n][d] * x + a2[n][d]) * x + a1[n][d]) * x + a0[n][d];
@@ -43,12 +51,12 @@ impl<const D: usize> Powers<D> {
         point
     }
 
-    /// Point, first and second derivatives of the bicubic `surface` to which these polynomials belong.
+    /// Point, first and second derivatives of the bicubic surface to which these polynomials belong.
     #[inline(never)]
-    pub(super) fn jet(&self, surface: &BsplineSurface<D>, u: f64, v: f64) -> SurfaceJet<D> {
-        let patches = self.0.get_or_init(|| patches(surface)).as_slice();
-        let ((k, x), (l, y)) = (surface.u().cubic_at(u), surface.v().cubic_at(v));
-        let [a0, a1, a2, a3] = &patches[k * surface.v().cubics().len() + l];
+    pub(super) fn jet(&self, net: Parts<'_, D>, u: f64, v: f64) -> SurfaceJet<D> {
+        let patches = self.0.get_or_init(|| patches(net)).as_slice();
+        let ((k, x), (l, y)) = (net.u.cubic_at(u), net.v.cubic_at(v));
+        let [a0, a1, a2, a3] = &patches[k * net.v.cubics().len() + l];
         let (mut value, mut slope, mut bend) = ([[0.0; D]; 4], [[0.0; D]; 4], [[0.0; D]; 4]);
         for n in 0..4 {
             for d in 0..D {
@@ -79,15 +87,15 @@ fn horner([c0, c1, c2, c3]: [f64; 4], x: f64) -> [f64; 3] {
 
 /// The coefficients of all pairs of spans, those in u slowest.
 #[cold]
-fn patches<const D: usize>(surface: &BsplineSurface<D>) -> Arc<Vec<Patch<D>>> {
-    let (rows, columns) = (surface.u().cubics(), surface.v().cubics());
+fn patches<const D: usize>(net: Parts<'_, D>) -> Arc<Vec<Patch<D>>> {
+    let (rows, columns) = (net.u.cubics(), net.v.cubics());
     let mut all = Vec::with_capacity(rows.len() * columns.len());
     for row in rows {
         // The net in powers of u.
-        let mut line = vec![[[0.0; D]; 4]; surface.shape()[1]];
+        let mut line = vec![[[0.0; D]; 4]; net.v.basis_count()];
         for (j, sums) in line.iter_mut().enumerate() {
             for i in 0..4 {
-                let point = surface.point(row.first + i, j);
+                let point = net.points[(row.first + i) * net.v.basis_count() + j];
                 for (sum, weights) in sums.iter_mut().zip(&row.powers) {
                     add(sum, weights[i], &point);
                 }

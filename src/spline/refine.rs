@@ -7,7 +7,8 @@
 
 use super::basis::{WideValues, blossom_row};
 use super::curve::BsplineCurve;
-use super::knots::{HIGHEST_DEGREE, KnotVector, MAX_DEGREE, SplineError};
+use super::basis::{HIGHEST_DEGREE, MAX_DEGREE};
+use super::knots::{KnotVector, SplineError};
 use super::surface::BsplineSurface;
 
 /// The index k with t_k <= t < t_{k+1} among old knots, within the spans `degree ..= count - 1` of positive length.

@@ -2,7 +2,7 @@
 
 use super::curve::BsplineCurve;
 use super::knots::{KnotVector, SplineError};
-use super::powers::Powers;
+use super::powers::{Parts, Powers};
 
 /// S(u, v) = sum_ij P_ij N_i(u) M_j(v), D coordinates; P_ij is stored at `i * columns + j`.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,6 +59,11 @@ impl<const D: usize> BsplineSurface<D> {
     #[must_use]
     pub fn points(&self) -> &[[f64; D]] {
         &self.points
+    }
+
+    /// Knots and net.
+    pub(super) fn parts(&self) -> Parts<'_, D> {
+        Parts { u: &self.u, v: &self.v, points: &self.points }
     }
 
     /// The polynomials of a bicubic surface.

@@ -73,7 +73,7 @@ impl<const D: usize> BsplineSurface<D> {
 }
 
 fn check(degree: usize, vertices: usize) -> Result<(), SplineError> {
-    if !(1..=super::MAX_DEGREE).contains(&degree) {
+    if !(1..=crate::spline::basis::MAX_DEGREE).contains(&degree) {
         return Err(SplineError::Degree(degree));
     }
     if vertices < 2 {

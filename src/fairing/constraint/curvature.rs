@@ -7,7 +7,7 @@
 use super::super::bends::Line;
 use super::super::model::Limit;
 use super::super::surface::FairSurface;
-use super::rule::along;
+use super::lines::along;
 
 pub(super) fn limits(surface: &FairSurface, line: Line, over: [f64; 2], convex: bool) -> Result<Vec<Limit>, String> {
     Ok(along(surface, line, over)?.iter().filter_map(|bend| bend.limit(!convex, &surface.start, 0.0)).collect())

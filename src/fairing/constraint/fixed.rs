@@ -8,7 +8,7 @@
 use super::super::bends::Line;
 use super::super::model::{Limit, Row, value};
 use super::super::surface::{FairSurface, basis_row};
-use super::rule::FixedLine;
+use super::lines::FixedLine;
 
 /// A line whose points differ by less than this part of the domain in v is a line of the net.
 const SAME: f64 = 1e-6;

@@ -10,6 +10,7 @@ mod curvature;
 mod fixed;
 mod flat;
 pub mod inflections;
+pub mod lines;
 mod metacentre;
 mod monotone;
 mod rule;
@@ -301,7 +302,8 @@ impl Constraint {
 
 pub use breadth::{admit, between, breadths, broken, control_values, excess};
 pub use flat::{edged, edges};
-pub use rule::{FixedLine, Rule, TangentPlace};
+pub use super::constraint::lines::{FixedLine, TangentPlace};
+pub use rule::Rule;
 
 /// Part of the room of a centre that is left for a change of the volume or area that it is the centre of.
 const LEFT_TO_SIZE: f64 = 0.01;

@@ -7,7 +7,7 @@
 use super::super::bends::Line;
 use super::super::model::Limit;
 use super::super::surface::FairSurface;
-use super::rule::along;
+use super::lines::along;
 
 pub(super) fn limits(surface: &FairSurface, line: Line, over: [f64; 2], rising: bool) -> Result<Vec<Limit>, String> {
     let (lower, upper) = if rising { (0.0, f64::INFINITY) } else { (f64::NEG_INFINITY, 0.0) };

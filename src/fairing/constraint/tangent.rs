@@ -7,7 +7,7 @@
 use super::super::bends::bend;
 use super::super::model::{Limit, Row};
 use super::super::surface::FairSurface;
-use super::rule::TangentPlace;
+use super::lines::TangentPlace;
 
 /// x' or z' below this part of the length of the ship, over the domain, is none.
 const STILL: f64 = 1e-6;

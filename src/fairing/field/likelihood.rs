@@ -434,3 +434,7 @@ pub fn smoothed(
     let cost = freedom * variance.ln() + left / variance - determinant + below;
     Ok(Smoothed { values, common, sigma: variance.sqrt(), cost, below })
 }
+
+/// Scale of the errors of an offset that is exact, over that of others.
+pub const EXACT: f64 = 1e-3;
+

@@ -31,6 +31,7 @@ pub mod choice;
     reason = "orders of derivatives and places of functions are what the loops run over"
 )]
 pub mod density;
+pub mod error;
 pub mod likeliest;
 pub mod likelihood;
 pub mod line_errors;

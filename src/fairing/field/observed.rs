@@ -6,12 +6,10 @@
 //! offsets agree to that (a perpendicular); a zero at which the field would have breadth. Otherwise it lies between the last station with breadth and the next one: the
 //! field says where.
 
+use super::likelihood::EXACT;
 use super::likelihood::{Cell, PLACES, Readings};
 use super::rocker::Rocker;
 use crate::hull::{Marks, OffsetTable, StationOffsets, TransomPlane};
-
-/// Scale of the errors of an offset that is exact, over that of others.
-pub const EXACT: f64 = 1e-3;
 
 /// Scale of the errors of a doubtful offset.
 pub const DOUBTFUL: f64 = 10.0;

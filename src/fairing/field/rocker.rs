@@ -9,7 +9,7 @@
 //! through the heights of the keel ([`super::likelihood`] along one direction).
 
 use super::net::{DEGREE, ORDER};
-use super::observed::EXACT;
+use super::likelihood::EXACT;
 use crate::hull::{OffsetTable, Outermost, carried_on};
 use crate::numeric::gauss_legendre;
 use crate::spline::{BsplineCurve, KnotVector};

@@ -1,5 +1,6 @@
 //! From the offsets of a table to the chart of its hull.
 
+use super::error::FieldError;
 use super::super::lines::LineCourse;
 use super::bent::Bent;
 use super::breaks::FoundBreak;
@@ -9,7 +10,8 @@ use super::likeliest::{Likeliest, likeliest};
 use super::likelihood::{ALLOWED, Cell, Observed, Readings, Smoothed, smoothed};
 use super::line_errors::{FoundErrors, LineErrors, SAME};
 use super::net::{Break, CLOSE, DEGREE, Metric, Net};
-use super::observed::{EXACT, End, Observations, Zero, ZeroKind};
+use super::likelihood::EXACT;
+use super::observed::{End, Observations, Zero, ZeroKind};
 use super::region::{Bend, Field, steepness};
 use super::rocker::Rocker;
 use crate::spline::{KnotVector, SplineError};
@@ -69,17 +71,6 @@ pub struct ChartedField {
     pub correlation: f64,
     /// The keel line to which its heights are relative.
     pub rocker: Option<Rocker>,
-}
-
-/// Why there is no field.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum FieldError {
-    /// Too few offsets.
-    #[error("the offsets do not determine a surface")]
-    Undetermined,
-    /// Knots.
-    #[error(transparent)]
-    Spline(#[from] SplineError),
 }
 
 impl ChartedField {

@@ -1,6 +1,7 @@
 //! The methods by which a table becomes a surface: the default, and those of five published systems with their settings.
 
-use crate::spline::{MAX_DEGREE, Parametrization};
+use crate::spline::basis::MAX_DEGREE;
+use crate::spline::Parametrization;
 use std::fmt;
 
 /// How a table becomes a surface.

@@ -1,7 +1,8 @@
 //! The iteration: predictor, corrector, step, and when it ends.
 
 use super::super::problem::{Progress, Settings};
-use super::newton::{Newton, Right, Step, inverse};
+use super::newton::{Newton, Right, Step};
+use super::schur::inverse;
 use super::point::{Direction, Iterate, Residuals, Slack};
 use super::scaled::Scaled;
 

@@ -277,6 +277,28 @@ impl Solver {
     }
 }
 
+impl Problem {
+    /// Solves.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when shapes or numbers are wrong; not solving is a [`Status`].
+    pub fn solve(&self, settings: &Settings) -> Result<Solution, ProblemError> {
+        Ok(Solver::new(self, settings)?.solve())
+    }
+
+    /// Solves from a point of a similar problem.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when shapes or numbers are wrong.
+    pub fn solve_from(&self, settings: &Settings, start: Option<&Interior>) -> Result<Solution, ProblemError> {
+        let mut solver = Solver::new(self, settings)?;
+        if let Some(start) = start {
+            solver.start_from(start)?;
+        }
+        Ok(solver.solve())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::sparse::SparseRows;

@@ -14,6 +14,7 @@
 //!
 //! For the inequalities inside, the right side comes as h = W g, which stays finite where W vanishes.
 
+use super::schur::inverse;
 use super::factor::Factor;
 use super::normal::Normal;
 use super::scaled::Scaled;
@@ -170,7 +171,3 @@ impl Newton {
     }
 }
 
-/// 1/W, bounded where the row does not bind.
-pub(super) fn inverse(weight: f64) -> f64 {
-    1.0 / weight.max(1e-30)
-}

@@ -1,7 +1,7 @@
 //! The Schur complement S = 1/W_o + A_o N^-1 A_o' of the dense rows, by Cholesky with dependent rows passed over.
 
 use super::factor::Factor;
-use super::newton::inverse;
+
 use super::scaled::Scaled;
 use crate::numeric::dense::{Block, subtract_product};
 
@@ -72,3 +72,9 @@ impl Schur {
         z
     }
 }
+
+/// 1/W, bounded where the row does not bind.
+pub(super) fn inverse(weight: f64) -> f64 {
+    1.0 / weight.max(1e-30)
+}
+

@@ -11,7 +11,7 @@ use crate::exchange::{
     COMPROMISE_LINE, CurveProblem, ManifestEntry, RoundingEffect, Severity, TableProblem, read_curve, write_hull,
 };
 use crate::fairing::ProposedLine;
-use crate::fairing::fair::FairError;
+use crate::fairing::error::FairError;
 use crate::fairing::job::{Job, JobError};
 use crate::fairing::outcome::Outcome;
 use crate::hull::{FitError, Hull, HullError, OffsetTable, TableLayout};
