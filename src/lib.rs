@@ -192,7 +192,8 @@ pub mod fairness {
     pub use crate::fairing::held::Held;
     pub use crate::fairing::inflections::Inflections;
     pub use crate::fairing::job::{Holding, Job, JobError, Tolerance};
-    pub use crate::fairing::outcome::{Change, Outcome, Predicted, Turns};
+    pub use crate::fairing::change::{Change, Predicted, Turns};
+    pub use crate::fairing::outcome::Outcome;
     pub use crate::fairing::strength::Fairness;
     pub use crate::fairing::surface::Origin;
     pub use crate::qp::{Certificate, Status};

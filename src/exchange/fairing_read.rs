@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::fairing::{kind_word, status_word};
 use super::hull_json::json_message;
-use crate::fairing::outcome::Change;
+use crate::fairing::change::Change;
 use crate::fairing::record::{AreaTargets, Crossing, Doubt, SectionTarget, TableLines};
 use crate::fairing::smoothing::Trial;
 use crate::fairing::surface::Origin;

@@ -11,7 +11,7 @@ use super::error::FairError;
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, admit, breadths};
-use super::fielded::{below_centreplane, local_noise};
+use super::local_noise::{below_centreplane, local_noise};
 use super::humps::{self, Fewer};
 use super::infeasible::Diagnosis;
 use super::least::TableLine;

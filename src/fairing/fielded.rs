@@ -4,6 +4,7 @@
 //! stem. Targets then move it by a change d of least energy. The field F makes the sum of squares and energy J
 //! stationary, so that J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd. Without targets the answer is the field itself.
 
+use super::local_noise::{LEAST_FREEDOM, below_centreplane};
 use super::constraint::{Constraint, Rule, breadths};
 use super::error::FairError;
 use super::fair::{FairSettings, Prepared};
@@ -41,15 +42,6 @@ const FARTHEST: [f64; 2] = [10.0, 3e-3];
 /// Standardised residuals of offsets that contradict a field, over the typical one, and over the greatest.
 const CONTRADICTS: f64 = 5.0;
 const ALIKE: f64 = 2.0 / 3.0;
-
-/// Stations and waterlines to each side over which the noise is taken.
-const AROUND: usize = 2;
-
-/// Readings that the noise of the whole table counts as.
-const PRIOR: f64 = 4.0;
-
-/// Least 1 - h of a reading.
-const LEAST_FREEDOM: f64 = 0.05;
 
 /// A locked offset that is further off does not stay \[m\].
 const KEPT: f64 = 1e-9;
@@ -340,11 +332,6 @@ fn locked(table: &OffsetTable) -> Vec<Origin> {
     found
 }
 
-/// What a field of this noise \[m\] may pass the centreplane by \[m\].
-pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
-    (ALLOWED[0] * sigma).max(ALLOWED[1] * hull.particulars().breadth)
-}
-
 /// The hull of a field.
 fn hull_of(field: &ChartedField, fitted: &Hull) -> Result<Hull, HullError> {
     let bent = &field.bent;
@@ -441,39 +428,3 @@ impl Prepared {
     }
 }
 
-/// The noise \[m\] about each reading of a field, normal to the hull: the mean of w r^2 / (1 - h) + w b^2 over the
-/// readings at most [`AROUND`] stations and waterlines away, with `sigma` counting as [`PRIOR`] readings more. Here b is what
-/// the line of an offset is too wide by, and r the residual without it.
-pub(super) fn local_noise(surface: &FairSurface, smoothed: &Smoothed, sigma: f64) -> Vec<f64> {
-    let square = |k: usize| {
-        let Reading { weight, shared, .. } = surface.model.readings[k];
-        let own = smoothed.residuals[k].powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM);
-        weight * (own + shared * shared)
-    };
-    let stations: BTreeSet<usize> = surface.places.iter().map(|place| place.origin.station()).collect();
-    let height = surface.hull.top() - surface.hull.bottom();
-    // Of points of sections their mean distance stands for that of waterlines.
-    let apart = height * stations.len() as f64 / surface.places.len().max(1) as f64;
-    let is_near = |place: &Place, other: &Place| {
-        let beside = match (place.origin.waterline(), other.origin.waterline()) {
-            (Some(own), Some(other)) => own.abs_diff(other) <= AROUND,
-            (None, None) => (place.z - other.z).abs() <= AROUND as f64 * apart,
-            _ => true,
-        };
-        beside && place.origin.station().abs_diff(other.origin.station()) <= AROUND
-    };
-    let is_offset = |place: &Place| !matches!(place.origin, Origin::Deck { .. });
-    let squares: Vec<(&Place, f64)> = surface
-        .places
-        .iter()
-        .enumerate()
-        .filter(|(_, place)| is_offset(place))
-        .map(|(k, place)| (place, square(k)))
-        .collect();
-    let noise = |place: &Place| {
-        let near = squares.iter().filter(|(other, _)| is_near(place, other));
-        let (count, sum) = near.fold((PRIOR, PRIOR * sigma * sigma), |(n, s), (_, square)| (n + 1.0, s + square));
-        (sum / count).sqrt()
-    };
-    surface.places.iter().map(noise).collect()
-}

@@ -5,7 +5,8 @@
 
 use super::changes::Watched;
 use super::job::{Job, JobError};
-use super::outcome::{Outcome, Turns};
+use super::outcome::Outcome;
+use super::change::Turns;
 use super::run::{Progress, Run};
 use super::start::Started;
 use super::strength::Fairness;
@@ -13,15 +14,6 @@ use crate::hull::OffsetTable;
 use crate::numeric::join;
 use crate::units::counted;
 use std::sync::Arc;
-
-/// What an outcome came from.
-#[derive(Debug, Clone)]
-pub(super) struct Taken {
-    /// The job.
-    pub(super) job: Job,
-    /// What it started from.
-    pub(super) started: Arc<Started>,
-}
 
 impl Taken {
     /// A run of `job` that only lacks its grade; the least inflections of lines that are `known` are not sought again.

@@ -1,5 +1,6 @@
 //! What a fair hull holds and what each wish costs: the same program without its rows.
 
+use super::model::violated;
 use super::choice::trial;
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairSettings, Faired};
@@ -94,12 +95,6 @@ impl HeldRule {
             given_up: true,
         }
     }
-}
-
-/// By how much a net breaks a limit.
-pub(super) fn violated(limit: &Limit, net: &[f64]) -> f64 {
-    let y = value(&limit.row, net);
-    (limit.lower - y).max(y - limit.upper).max(0.0)
 }
 
 /// Constraints, and what they cost where that is asked for (`priced`).

@@ -28,7 +28,7 @@ mod line;
 
 use super::bends::{Bend, Line, changes};
 use super::choice::{trial, worth_it};
-use super::held::violated;
+use super::model::violated;
 use super::least::TableLine;
 use super::model::{Limit, Model, value};
 use super::program::{Program, RowName, Solved, Wishes};

@@ -244,3 +244,10 @@ fn split(row: &[(usize, f64)], place: &[Option<usize>], origin: &[f64]) -> (Row,
 pub fn value(row: &[(usize, f64)], c: &[f64]) -> f64 {
     row.iter().map(|&(column, value)| value * c[column]).sum()
 }
+
+/// By how much a net breaks a limit.
+pub(super) fn violated(limit: &Limit, net: &[f64]) -> f64 {
+    let y = value(&limit.row, net);
+    (limit.lower - y).max(y - limit.upper).max(0.0)
+}
+

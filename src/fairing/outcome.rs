@@ -1,13 +1,14 @@
 //! What a job comes to: every offset with its move, what is held, what bends, and what is to be said of it.
 
+use super::change::{Change, Predicted, Turns};
 use super::constraint::Constraint;
 use super::fair::Faired;
 use super::field::line_errors::FoundErrors;
-use super::grades::Taken;
+use super::start::Taken;
 use super::held::{Held, HeldRule};
 use super::inspect::{PolygonSigns, is_of_table, kind};
 use super::proposals::Proposal;
-use super::record::moves;
+use super::change::moves;
 use super::strength::{Fairness, far_above};
 use super::surface::Origin;
 use super::suspects::Suspect;
@@ -15,76 +16,6 @@ use crate::hull::{Cut, Hull, OffsetTable};
 use crate::numeric::median;
 use crate::qp::Status;
 use crate::units::counted;
-
-/// A cell and what became of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Change {
-    /// Index of the station.
-    pub station: usize,
-    /// What it is of the station.
-    pub origin: Origin,
-    /// Position forward of AP \[m\].
-    pub x: f64,
-    /// Height above the base line \[m\].
-    pub z: f64,
-    /// Half-breadth in the table \[m\].
-    pub before: f64,
-    /// Half-breadth of the fair surface \[m\].
-    pub after: f64,
-    /// Tolerance that was used \[m\]; none for cells that were left out.
-    pub tolerance: Option<f64>,
-    /// The cell was left out as a suspect.
-    pub suspect: bool,
-    /// The cell was locked.
-    pub locked: bool,
-}
-
-/// An offset that the table marks as unknown (`?`), from the fair surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Predicted {
-    /// Index of the station.
-    pub station: usize,
-    /// Index of the waterline.
-    pub waterline: usize,
-    /// Position forward of AP \[m\].
-    pub x: f64,
-    /// Height above the base line \[m\].
-    pub z: f64,
-    /// Half-breadth \[m\].
-    pub half_breadth: f64,
-}
-
-/// Inflections and monotone pieces of one curve.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turns {
-    /// The plane that cuts it.
-    pub cut: Cut,
-    /// Inflections of the surface through the table.
-    pub before: usize,
-    /// Inflections of the fair surface.
-    pub after: usize,
-    /// The least number of inflections of any curve within the tolerances of the offsets, and whether that is proved;
-    /// none on lines that the table does not have.
-    pub minimum: Option<(usize, bool)>,
-    /// Monotone pieces of curvature before and after.
-    pub pieces: [usize; 2],
-    /// Total variation of curvature over its range before and after \[-\]; none on straight lines.
-    pub variation: [Option<f64>; 2],
-}
-
-impl Turns {
-    /// The least number of monotone pieces, max(1, m) of the least number m of inflections; none where that is not known.
-    ///
-    /// Between two successive zeros of curvature it has an extremum (Rolle): m inflections have m - 1 turning points
-    /// between them, which part m pieces; without inflections there is one. The number rests on the least number of
-    /// inflections, and is proved where that is. It says nothing of curves within the tolerances whose curvature has
-    /// few zeros and must turn all the same.
-    #[must_use]
-    pub fn least_pieces(&self) -> Option<usize> {
-        // Of a hump that just counts the swings beside it may not.
-        self.minimum.map(|(least, _)| least.max(1).min(self.pieces[1]))
-    }
-}
 
 /// What a job comes to.
 #[derive(Debug, Clone)]

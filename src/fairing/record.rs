@@ -1,10 +1,12 @@
 //! What drawings and reports need of a faired table, without the program that made it: the hulls before and after, the
 //! lines of the table, every offset with its move, the noise and the search for the smoothing weight.
 
+use super::change::moves;
 use super::constraint::Constraint;
 use super::held::Held;
 use super::lines::{self as proposed, LineCourse};
-use super::outcome::{Change, Outcome};
+use super::change::Change;
+use super::outcome::Outcome;
 use super::smoothing::Trial;
 use super::suspects::Suspect;
 use crate::hull::{Hull, LineKind, OffsetStation, OffsetTable};
@@ -292,11 +294,3 @@ pub fn accuracy(quantum: Option<f64>, sigma: f64) -> f64 {
     (2.0 * quantum.unwrap_or(0.0)).max(2.0 * sigma)
 }
 
-/// Root of the mean square and largest of the moves of what was not left out \[m\], with the place of the largest.
-pub(super) fn moves(changes: &[Change]) -> (f64, f64, Option<&Change>) {
-    let kept: Vec<&Change> = changes.iter().filter(|change| !change.suspect).collect();
-    let size = |change: &Change| (change.after - change.before).abs();
-    let squares: f64 = kept.iter().map(|change| size(change).powi(2)).sum();
-    let largest = kept.iter().copied().max_by(|a, b| size(a).total_cmp(&size(b)));
-    ((squares / kept.len().max(1) as f64).sqrt(), largest.map_or(0.0, size), largest)
-}

@@ -275,3 +275,13 @@ fn declared_breaks(table: &OffsetTable, hull: &Hull) -> Breaks {
     }
     breaks
 }
+
+/// What an outcome came from.
+#[derive(Debug, Clone)]
+pub(super) struct Taken {
+    /// The job.
+    pub(super) job: Job,
+    /// What it started from.
+    pub(super) started: Arc<Started>,
+}
+

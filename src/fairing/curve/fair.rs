@@ -10,7 +10,7 @@ use super::result::{CurveLine, CurveMove, FairCurve, FairStatus, LineKind, infle
 use super::signs::{Signs, scores};
 use super::space::{CurveSpace, checked};
 use super::wishes::{Wished, between, limits, quantity};
-use super::within::Within;
+
 use crate::spline::{BsplineCurve, Condition, Energy, KnotVector};
 
 /// Dearest pattern, in units of sigma^2.
@@ -512,3 +512,15 @@ fn cheapest(z: &[f64], starts: &[usize], counts: &[usize], raw: &[usize]) -> Opt
     };
     (0..counts.len()).filter(|&s| counts[s] < raw[s]).max_by(|&a, &b| gain(a).total_cmp(&gain(b)))
 }
+
+/// What it comes to; the wishes of the job are those that were had.
+pub(super) struct Within {
+    pub(super) free: Solved,
+    pub(super) status: FairStatus,
+    pub(super) diagnosis: Option<Diagnosis>,
+    /// Whether wishes gave way.
+    pub(super) nearest: bool,
+    /// Whether no tolerance would do.
+    pub(super) contradictory: bool,
+}
+

@@ -1,6 +1,7 @@
 //! The program without signs, kept near the points between them; where it has no answer, why, and the best compromise:
 //! tolerances a little wider, or within the tolerances the nearest that can be had of area, centroid and slopes.
 
+use super::fair::Within;
 use super::super::infeasible::{Diagnosis, Target, diagnose, least_widening, nearest};
 use super::super::model::{Limit, value};
 use super::super::program::{Between, Solved, Wishes};
@@ -19,17 +20,6 @@ const GONE_BACK: f64 = 0.5;
 
 /// Most times that limits are added which an answer breaks.
 const ROUNDS: usize = 10;
-
-/// What it comes to; the wishes of the job are those that were had.
-pub(super) struct Within {
-    pub(super) free: Solved,
-    pub(super) status: FairStatus,
-    pub(super) diagnosis: Option<Diagnosis>,
-    /// Whether wishes gave way.
-    pub(super) nearest: bool,
-    /// Whether no tolerance would do.
-    pub(super) contradictory: bool,
-}
 
 /// Those of the limits that a net breaks.
 fn broken<'a>(sites: &'a [Between], net: &'a [f64], widening: f64) -> impl Iterator<Item = Between> + 'a {

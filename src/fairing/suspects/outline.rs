@@ -12,7 +12,6 @@
 //! evidence is the distance at which the repaired point would lie (head of `posterior.rs`). Marked knuckles end the
 //! predictors.
 
-use super::boat_lines::{has_lines, line_suspects};
 use super::posterior::{Reading, readings, student};
 use super::reading::{Hypothesis, Writing, bare, repairs};
 use crate::hull::{OffsetTable, OutlinePoint};
@@ -500,12 +499,8 @@ fn suspect(judge: &Judge, (r, at): (usize, usize), numbers: &Numbers<'_>, wrong:
 
 /// The suspects among the points of the sections of a table; nothing is changed. The strongest is set aside before the
 /// next is looked for, and all are heard again at the end. Cost: linear in the points, and in the points of a section
-/// for each suspect. Tables of lines, as boats have them, are judged along their lines.
-#[must_use]
-pub fn point_suspects(table: &OffsetTable) -> PointSuspects {
-    if has_lines(table) {
-        return line_suspects(table);
-    }
+/// for each suspect.
+pub(super) fn section_suspects(table: &OffsetTable) -> PointSuspects {
     let quantum = table.form.quantum().unwrap_or(1e-4);
     // Sections are half sections whatever the grid of a table is.
     let writing = Writing { factor: 1.0, ..Writing::of(&table.form) };

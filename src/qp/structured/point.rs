@@ -184,6 +184,27 @@ impl Iterate {
     }
 }
 
+impl Scaled {
+    /// An iterate in the units of the problem.
+    pub(super) fn interior(&self, point: &Iterate) -> Interior {
+        let sides = |row: usize| {
+            let (scale, z) = (self.row_scale[row], point.z[row]);
+            let sides = if self.equal[row] {
+                [z.max(0.0), (-z).max(0.0)].map(|z| Slack { z, ..Slack::NONE })
+            } else {
+                [point.upper[row], point.lower[row]]
+            };
+            sides.map(|side| [side.s / scale, side.z * scale / self.objective_scale])
+        };
+        Interior { x: self.variables(&point.x), rows: (0..point.z.len()).map(|row| Some(sides(row))).collect() }
+    }
+
+    /// A slack with its multiplier in the units of the iteration.
+    pub(super) fn side(&self, row: usize, [s, z]: [f64; 2]) -> Slack {
+        Slack { s: s * self.row_scale[row], z: z * self.objective_scale / self.row_scale[row] }
+    }
+}
+
 /// A direction: (dx, dz), dt and the changes of the multipliers of both sides.
 pub(super) struct Direction {
     pub(super) step: Step,

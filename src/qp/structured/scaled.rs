@@ -4,7 +4,6 @@
 use super::super::problem::{Interior, Problem};
 use super::super::sparse::SparseRows;
 use super::normal::elimination_order;
-use super::point::{Iterate, Slack};
 
 /// A row longer than this, and than an eighth of the unknowns, stays outside the normal matrix.
 const DENSE: usize = 100;
@@ -30,7 +29,7 @@ pub(super) struct Scaled {
     pub(super) outside: Vec<usize>,
     /// Objective of the iteration over that of the problem.
     pub(super) objective_scale: f64,
-    row_scale: Vec<f64>,
+    pub(super) row_scale: Vec<f64>,
     /// A variable of the problem over that of the iteration, in elimination order: powers of two, which round nothing.
     column_scale: Vec<f64>,
     order: Vec<usize>,
@@ -128,28 +127,9 @@ impl Scaled {
         z.iter().zip(&self.row_scale).map(|(z, scale)| z * scale / self.objective_scale).collect()
     }
 
-    /// An iterate in the units of the problem.
-    pub(super) fn interior(&self, point: &Iterate) -> Interior {
-        let sides = |row: usize| {
-            let (scale, z) = (self.row_scale[row], point.z[row]);
-            let sides = if self.equal[row] {
-                [z.max(0.0), (-z).max(0.0)].map(|z| Slack { z, ..Slack::NONE })
-            } else {
-                [point.upper[row], point.lower[row]]
-            };
-            sides.map(|side| [side.s / scale, side.z * scale / self.objective_scale])
-        };
-        Interior { x: self.variables(&point.x), rows: (0..point.z.len()).map(|row| Some(sides(row))).collect() }
-    }
-
     /// The x of a point in the units of the iteration.
     pub(super) fn scaled_variables(&self, x: &[f64]) -> Vec<f64> {
         self.order.iter().zip(&self.column_scale).map(|(&index, scale)| x[index] / scale).collect()
-    }
-
-    /// A slack with its multiplier in the units of the iteration.
-    pub(super) fn side(&self, row: usize, [s, z]: [f64; 2]) -> Slack {
-        Slack { s: s * self.row_scale[row], z: z * self.objective_scale / self.row_scale[row] }
     }
 }
 

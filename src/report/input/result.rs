@@ -10,7 +10,7 @@ use crate::exchange::{
     FairingFile, HullFile, ManifestEntry, json_message, read_changes, read_fairing, read_hull, read_manifest_input,
     read_manifest_outputs, sha256,
 };
-use crate::fairing::outcome::Change;
+use crate::fairing::change::Change;
 use crate::fairing::record::{Doubt, FairRecord, resolution};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, default_draughts};

@@ -9,7 +9,7 @@ use super::plan::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, name_curvatures};
 use super::sections::curves;
 use super::strip_lines::{Along, GRID, StripLine, chosen};
 use crate::fairing::inspect::Comb;
-use crate::fairing::outcome::Change;
+use crate::fairing::change::Change;
 use crate::fairing::record::FairRecord;
 use crate::hull::{Cut, Hull};
 use crate::plot::paper::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};

@@ -8,7 +8,7 @@
 //! a knuckle (full) or a tangent line (hollow).
 
 use super::plan::station_words;
-use crate::fairing::outcome::Change;
+use crate::fairing::change::Change;
 use crate::fairing::record::{Crossing, FairRecord};
 use crate::fairing::surface::Origin;
 use crate::hull::{LineKind, OffsetStation};

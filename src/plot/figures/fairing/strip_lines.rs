@@ -1,7 +1,7 @@
 //! The lines of a table that have a strip of their own: those that moved most.
 
 use super::sections::station_cut;
-use crate::fairing::outcome::Change;
+use crate::fairing::change::Change;
 use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
 use crate::hull::Cut;

@@ -5,7 +5,7 @@
 //! framed in dashes: marks that survive a print without colours. Offsets that are written as before are grey.
 
 use super::plan::station_words;
-use crate::fairing::outcome::Change;
+use crate::fairing::change::Change;
 use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
 use crate::plot::paper::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};

@@ -6,7 +6,7 @@ use super::words::{least, millimetres};
 use crate::config::{Diagnostic, Location, Severity};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::infeasible::{Diagnosis, Reach};
-use crate::fairing::outcome::Turns;
+use crate::fairing::change::Turns;
 use crate::qp::Status;
 use crate::report::failure::{Failure, problem};
 use crate::report::words::page::upward;

@@ -1,7 +1,8 @@
 //! Words that the pages of `fair` share.
 
 use super::job::FairJob;
-use crate::fairing::outcome::{Change, Outcome};
+use crate::fairing::change::Change;
+use crate::fairing::outcome::Outcome;
 use crate::fairing::record::accuracy;
 use crate::fairing::surface::Origin;
 use crate::hull::Cut;

@@ -6,7 +6,7 @@ pub(in crate::report) use crate::report::words::remarks::is_warning;
 use serde_json::Value;
 
 use super::cells::{figures, list, text};
-use crate::fairing::outcome::Change;
+use crate::fairing::change::Change;
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::Hydrostatics;
 use crate::report::input::result::JobResult;
