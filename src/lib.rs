@@ -185,6 +185,7 @@ pub mod fairness {
     //!
     //! [`prelude::fair`](crate::prelude::fair) takes any key of the job file; [`Job`] has targets, tolerances and locks.
 
+    pub use crate::fairing::change::{Change, Predicted, Turns};
     pub use crate::fairing::constraint::Constraint;
     pub use crate::fairing::curve::{
         CurveError, CurveMove, CurvePoint, CurveSettings, FairCurve, FairStatus, InflectionWish, fair_curve,
@@ -192,7 +193,6 @@ pub mod fairness {
     pub use crate::fairing::held::Held;
     pub use crate::fairing::inflections::Inflections;
     pub use crate::fairing::job::{Holding, Job, JobError, Tolerance};
-    pub use crate::fairing::change::{Change, Predicted, Turns};
     pub use crate::fairing::outcome::Outcome;
     pub use crate::fairing::strength::Fairness;
     pub use crate::fairing::surface::Origin;

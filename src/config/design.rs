@@ -2,7 +2,7 @@
 
 use super::design_targets::design_targets;
 use super::diagnostic::{Diagnostic, Severity};
-use super::document::{Document, Raw, nearest};
+use super::document::{Document, Raw, nearest, require};
 use super::keys::{FAMILIES, FIGURES, KEYS, Kind};
 use super::reference::{Reference, reference};
 use crate::hull::StationNumbers;
@@ -243,14 +243,6 @@ fn refuse_other_families(document: &mut Document<'_>, family: &str) {
     for (path, span, families) in strangers {
         let message = format!("{path} is not a key of the family \"{family}\"");
         document.problem("E126", &path, &span, message, format!("It belongs to {families}."));
-    }
-}
-
-/// Notes the required keys that are absent.
-pub(super) fn require(document: &mut Document<'_>, paths: &[&str], why: &str) {
-    let missing: Vec<&str> = paths.iter().filter(|path| document.entry(path).is_none()).copied().collect();
-    if !missing.is_empty() {
-        document.whole_file("E125", format!("{} missing: {why}", missing.join(", ")));
     }
 }
 

@@ -3,15 +3,15 @@
 use std::ops::Range;
 
 use super::document::{Document, Raw};
-use super::keys::{Kind, preset_of};
-use super::value::{Scalar, expected};
+use super::keys::{Kind, expected, preset_of};
+use super::value::Scalar;
 use crate::parametric::ShipType;
 use crate::parametric::cosh::{DesignTargets, MidshipTarget};
 use crate::units::{self, Dimension, Measure};
 
 pub(super) fn design_targets(document: &mut Document<'_>, density: f64, complain: bool) -> DesignTargets {
     if complain {
-        super::design::require(document, &["dimensions.Lpp"], "the length is the least that a design says");
+        crate::config::document::require(document, &["dimensions.Lpp"], "the length is the least that a design says");
     }
     let preset = document.word("project.preset");
     let length = document.number("dimensions.Lpp").unwrap_or(f64::NAN);

@@ -6,8 +6,8 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::diagnostic::{Diagnostic, Severity, quoted};
-use super::job::{REMOVED, RENAMED};
-use super::keys::{KEYS, Key};
+
+use super::keys::{KEYS, Key, REMOVED, RENAMED};
 use crate::units::{LineStarts, counted};
 
 /// Files longer than this are not design files \[bytes\].
@@ -338,4 +338,12 @@ impl<'a> Document<'a> {
 fn under(table: &str, path: &str) -> bool {
     let table = table.to_lowercase();
     table == path || table.strip_prefix(path).is_some_and(|rest| rest.starts_with('.'))
+}
+
+/// Notes the required keys that are absent.
+pub(super) fn require(document: &mut Document<'_>, paths: &[&str], why: &str) {
+    let missing: Vec<&str> = paths.iter().filter(|path| document.entry(path).is_none()).copied().collect();
+    if !missing.is_empty() {
+        document.whole_file("E125", format!("{} missing: {why}", missing.join(", ")));
+    }
 }

@@ -23,7 +23,6 @@ mod table_ref;
 use hold::{MOST_TARGET, is_area};
 pub use hold::{Quantity, Target};
 pub use keys::JOB_KEYS;
-pub(super) use keys::{REMOVED, RENAMED};
 pub use location::Location;
 use ranges::{density, dimension, fairness, positive, price, weight};
 pub use shape::RuleEntry;

@@ -14,8 +14,7 @@ use crate::hull::{
     FitMethod, LeastSquares, NetKnots, ParametricStations, QuadraticNet, SettingProblem, StatedParticulars,
     UniformBicubic,
 };
-use crate::spline::basis::MAX_DEGREE;
-use crate::spline::Parametrization;
+use crate::spline::{MAX_DEGREE, Parametrization};
 
 /// Words for `method.kind`.
 pub const METHODS: [&str; 6] =

@@ -1,9 +1,9 @@
 //! Values of the known keys: units, words, lists, and what is wrong with them.
 
+use super::keys::{FIGURES, Kind, expected};
 use std::ops::Range;
 
 use super::document::{Document, Raw, nearest};
-use super::keys::{FIGURES, Kind};
 use crate::units::{self, Dimension, Measure};
 
 /// A number with its kind, or a word.
@@ -11,41 +11,6 @@ use crate::units::{self, Dimension, Measure};
 pub(super) enum Scalar {
     Measure(Measure),
     Word(&'static str),
-}
-
-/// What was expected, for messages.
-pub(super) fn expected(kind: Kind) -> String {
-    match kind {
-        Kind::Text => "a text in quotes".into(),
-        Kind::Integer(from, to) if from == to => format!("{from}"),
-        Kind::Integer(from, to) => format!("a whole number from {from} to {to}"),
-        Kind::Number => "a number".into(),
-        Kind::Length => "a length: metres, or a text with a unit as \"32250 mm\" or \"62 ft 3 in\"".into(),
-        Kind::Angle => "an angle: degrees, or a text with a unit as \"12 deg\"".into(),
-        Kind::RawAngle => "an angle: radians, or a text with a unit as \"7.5 deg\"".into(),
-        Kind::Density => "a density: t/m3, or a text with a unit as \"1025 kg/m3\"".into(),
-        Kind::Displacement => "tonnes, or a text with a unit as \"4050 t\" or \"3951 m3\"".into(),
-        Kind::FractionOrLength => "a fraction, or a length with its unit as \"3.2 m\"".into(),
-        Kind::Word(words) => format!("one of \"{}\"", words.join("\", \"")),
-        Kind::NumberOrWord(words) => format!("a number or one of \"{}\"", words.join("\", \"")),
-        Kind::CentreOfBuoyancy => "\"+0.8 %\" (of Lpp from midship, + forward), \"41.0 m AP\" or \"auto\"".into(),
-        Kind::Interval => "two fractions of Lpp from AP, as [0.42, 0.58]".into(),
-        Kind::Positions => "{ from = 1, to = 9, step = 1 }, a list of lengths, or \"1:9:1\"".into(),
-        Kind::Shell => "{ thickness = \"10 mm\" } or { factor = 1.006 }".into(),
-        Kind::Numbers => "a list of numbers, as [0, 0, 1, 2, 2]".into(),
-        Kind::Switch => "true or false".into(),
-        Kind::Area => "an area: square metres, or a text with a unit as \"1103 m2\"".into(),
-        Kind::OrWord(inner, words) => format!("{}; or one of \"{}\"", expected(*inner), words.join("\", \"")),
-        Kind::Names => "a list of names, as [\"5\", \"9 1/2\"]; a cell is \"station@waterline\"".into(),
-        Kind::NamedLengths => "a table of names with lengths, as { \"5\" = \"2 mm\" }".into(),
-        Kind::SectionAreas => {
-            "a list of [x, area] or [x, area, band], m and m2, the name of a CSV file, or \"table\"".into()
-        }
-        Kind::Phrases(example) => format!("a list of texts, as [{example}]"),
-        Kind::NamedAngles(example) => format!("a table of places with angles, as {{ {example} }}"),
-        Kind::NamedCounts(example) => format!("a table of lines with whole numbers, as {{ {example} }}"),
-        Kind::Figures => format!("\"all\", \"none\" or names of {}", FIGURES.join(", ")),
-    }
 }
 
 fn accepts(kind: Kind, dimension: Dimension) -> bool {

@@ -7,8 +7,7 @@
 //! the half-breadths on a fixed chart.
 
 use crate::hull::Hull;
-use crate::spline::BsplineSurface;
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineSurface, MAX_DEGREE};
 
 /// Points of a span in each direction at which signs are looked at.
 const PLACES: usize = 2;

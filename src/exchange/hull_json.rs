@@ -12,8 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::hydrostatics::ConventionsRecord;
 use crate::hull::{Hull, HullError, PrincipalParticulars};
 use crate::hydrostatics::Conventions;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE, SplineError};
 use crate::units::{NAME_REMEDY, name_fault};
 
 const FORMAT: &str = "loftsman-hull";

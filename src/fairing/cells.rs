@@ -10,8 +10,7 @@
 //! with s and t the orders along the ship and up.
 
 use crate::numeric::{SymmetricBand, gauss_legendre};
-use crate::spline::{BsplineSurface, KnotVector};
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineSurface, KnotVector, MAX_DEGREE};
 
 /// Orders of derivatives, 0 to 3.
 pub(super) const ORDERS: usize = 4;

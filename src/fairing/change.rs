@@ -81,4 +81,3 @@ pub(super) fn moves(changes: &[Change]) -> (f64, f64, Option<&Change>) {
     let largest = kept.iter().copied().max_by(|a, b| size(a).total_cmp(&size(b)));
     ((squares / kept.len().max(1) as f64).sqrt(), largest.map_or(0.0, size), largest)
 }
-

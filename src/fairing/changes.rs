@@ -1,7 +1,7 @@
 //! What became of a table: every offset with its move, the table with the new offsets, inflections before and after.
 
-use super::inspect::{Counts, Planes, Traced, is_of_table};
 use super::change::{Change, Predicted, Turns};
+use super::inspect::{Counts, Planes, Traced, is_of_table};
 use super::surface::{FairSurface, Origin};
 use crate::hull::{Cell, Cut, Entry, Hull, OffsetTable, default_waterlines};
 

@@ -7,15 +7,15 @@
 //! 3. The same with signs of curvature of the lines of the table: J_signs. price = (J_signs - J_free) / sigma^2 is at most
 //!    [`FairSettings::price`] for each hump (`humps`).
 
-use super::error::FairError;
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, admit, breadths};
-use super::local_noise::{below_centreplane, local_noise};
+use super::error::FairError;
 use super::humps::{self, Fewer};
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
 use super::least_waves::{WaveAim, least_waves};
+use super::local_noise::{below_centreplane, local_noise};
 use super::model::Limit;
 use super::noise::{Differences, errors, taken};
 use super::program::{Program, RowName, Solved, Wishes};

@@ -4,7 +4,6 @@
 //! stem. Targets then move it by a change d of least energy. The field F makes the sum of squares and energy J
 //! stationary, so that J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd. Without targets the answer is the field itself.
 
-use super::local_noise::{LEAST_FREEDOM, below_centreplane};
 use super::constraint::{Constraint, Rule, breadths};
 use super::error::FairError;
 use super::fair::{FairSettings, Prepared};
@@ -13,6 +12,7 @@ use super::field::observed::{DOUBTFUL, Observations};
 use super::field::points::Points;
 use super::field::rocker::Rocker;
 use super::field::surface::ChartedField;
+use super::local_noise::{LEAST_FREEDOM, below_centreplane};
 use super::model::{Limit, Model, Reading, Stationary, value};
 use super::move_metric::move_metric;
 use super::program::{Program, Wishes};
@@ -427,4 +427,3 @@ impl Prepared {
         quantities.iter().map(|quantity| error(quantity) * quantity.scale(hull) * narrower(quantity)).collect()
     }
 }
-

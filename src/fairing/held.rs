@@ -1,10 +1,9 @@
 //! What a fair hull holds and what each wish costs: the same program without its rows.
 
-use super::model::violated;
 use super::choice::trial;
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairSettings, Faired};
-use super::model::{Limit, Model, value};
+use super::model::{Limit, Model, value, violated};
 use super::program::{RowName, Solved};
 use super::surface::FairSurface;
 use crate::hull::Hull;

@@ -28,9 +28,8 @@ mod line;
 
 use super::bends::{Bend, Line, changes};
 use super::choice::{trial, worth_it};
-use super::model::violated;
 use super::least::TableLine;
-use super::model::{Limit, Model, value};
+use super::model::{Limit, Model, value, violated};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::smoothing::{Smoothed, Smoother};
 use super::strength::{Few, far_above};

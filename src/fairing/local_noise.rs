@@ -14,7 +14,7 @@ const AROUND: usize = 2;
 const PRIOR: f64 = 4.0;
 
 /// Least 1 - h of a reading.
-const LEAST_FREEDOM: f64 = 0.05;
+pub(super) const LEAST_FREEDOM: f64 = 0.05;
 
 /// What a field of this noise \[m\] may pass the centreplane by \[m\].
 pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {

@@ -5,7 +5,7 @@ mod adapt;
 pub mod bends;
 mod carry;
 mod cells;
-mod change;
+pub mod change;
 mod changes;
 mod choice;
 mod compromise;

@@ -250,4 +250,3 @@ pub(super) fn violated(limit: &Limit, net: &[f64]) -> f64 {
     let y = value(&limit.row, net);
     (limit.lower - y).max(y - limit.upper).max(0.0)
 }
-

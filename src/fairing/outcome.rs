@@ -1,14 +1,13 @@
 //! What a job comes to: every offset with its move, what is held, what bends, and what is to be said of it.
 
-use super::change::{Change, Predicted, Turns};
+use super::change::{Change, Predicted, Turns, moves};
 use super::constraint::Constraint;
 use super::fair::Faired;
 use super::field::line_errors::FoundErrors;
-use super::start::Taken;
 use super::held::{Held, HeldRule};
 use super::inspect::{PolygonSigns, is_of_table, kind};
 use super::proposals::Proposal;
-use super::change::moves;
+use super::start::Taken;
 use super::strength::{Fairness, far_above};
 use super::surface::Origin;
 use super::suspects::Suspect;

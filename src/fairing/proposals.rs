@@ -8,9 +8,9 @@
 
 use super::error::FairError;
 use super::lines::{LineCourse, LineKind, ProposedLine};
+use super::metric::ANISOTROPY;
 use super::model::Model;
 use super::smoothing::Smoother;
-use super::metric::ANISOTROPY;
 use super::surface::{FairSurface, energy as plain_energy};
 use super::unbroken::{AT_KNOT, Along, Breaks, runs_on};
 use crate::hull::{self, FeatureLine, Hull, HullError, OffsetTable};

@@ -1,11 +1,10 @@
 //! What drawings and reports need of a faired table, without the program that made it: the hulls before and after, the
 //! lines of the table, every offset with its move, the noise and the search for the smoothing weight.
 
-use super::change::moves;
+use super::change::{Change, moves};
 use super::constraint::Constraint;
 use super::held::Held;
 use super::lines::{self as proposed, LineCourse};
-use super::change::Change;
 use super::outcome::Outcome;
 use super::smoothing::Trial;
 use super::suspects::Suspect;
@@ -293,4 +292,3 @@ pub(super) fn bump(length: f64, quantum: f64) -> f64 {
 pub fn accuracy(quantum: Option<f64>, sigma: f64) -> f64 {
     (2.0 * quantum.unwrap_or(0.0)).max(2.0 * sigma)
 }
-

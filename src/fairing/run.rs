@@ -2,12 +2,12 @@
 //! that cannot be met and what is done instead; lines that bend more often and are done again; what the page says of it all.
 
 use super::bends::Line;
+use super::change::Turns;
 use super::changes::{Counted, Watched, changes, normal_moves, predicted, written};
 use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, excess as excess_of_breadth};
 use super::fair::{FairSettings, Faired, PRICE, Prepared, fair_prepared};
 use super::field::points::is_on_centreplane;
-use super::start::Taken;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::{Diagnosis, Ends};
 use super::inspect::{ON_CHORD, gaussian_regions, net_signs};
@@ -15,11 +15,10 @@ use super::job::{Holding, Job, JobError, LEAST_TOLERANCE, MOST_LENGTH};
 use super::least::TableLine;
 use super::noise::{Differences, left_by_differences};
 use super::outcome::{Outcome, more_often, total};
-use super::change::Turns;
 use super::proposals::{Accepted, Proposal};
 use super::record::bump;
 use super::relinearise::ON_TARGET;
-use super::start::Started;
+use super::start::{Started, Taken};
 use super::strength::Fairness;
 use super::surface::{FairSurface, Origin, Place};
 use super::suspects::Suspects;

@@ -1,5 +1,6 @@
 //! From a table to the model that is faired: what is left out, the surface through the rest, accepted lines, the net.
 
+use std::sync::Arc;
 use super::changes::Watched;
 use super::constraint::{Rule, edged, edges};
 use super::fielded::{Likely, TableField};
@@ -284,4 +285,3 @@ pub(super) struct Taken {
     /// What it started from.
     pub(super) started: Arc<Started>,
 }
-

@@ -12,8 +12,7 @@
 use super::form::Hull;
 use super::immersion::Immersion;
 use crate::numeric::gauss_legendre;
-use crate::spline::KnotVector;
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{KnotVector, MAX_DEGREE};
 
 /// Nodes of the rule that is refined where x depends on v.
 const NODES: usize = 7;

@@ -8,7 +8,7 @@ use super::form::Hull;
 use super::functional::{Arm, Moment};
 use super::immersion::{Immersion, UpperEnd};
 use crate::numeric::gauss_legendre;
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::MAX_DEGREE;
 
 /// x, z, x_u, z_u and y of the columns of the net on a line u = constant.
 fn collapse(hull: &Hull, span: usize, basis: &[[f64; MAX_DEGREE + 1]; 2], columns: &mut [[f64; 5]]) {

@@ -17,8 +17,7 @@
 
 use super::chart;
 use super::particulars::PrincipalParticulars;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE, SplineError};
 
 /// Coordinates of the net that differ by less than this part of the largest one differ by rounding: a net that falls by
 /// less does not fall, and stations on which x differs by less are upright.

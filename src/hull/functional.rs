@@ -19,8 +19,7 @@ use super::charted;
 use super::form::Hull;
 use super::immersion::{Immersion, UpperEnd};
 use crate::numeric::gauss_legendre;
-use crate::spline::BsplineCurve;
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineCurve, MAX_DEGREE};
 
 /// Nodes a piece in u where the body ends at the deck.
 const DECK_NODES: usize = 16;

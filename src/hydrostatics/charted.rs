@@ -13,7 +13,8 @@
 //! Cells of the knots that lie below the waterline as a whole are integrated once for all draughts; a draught costs the
 //! cells that its waterline passes through: O(cells) in all and O(spans_u + spans_v) a draught.
 
-use super::volume::{Body, Node, count_along, count_up, node_at, nodes};
+use super::node::{Node, node_at, nodes};
+use super::volume::{Body, count_along, count_up};
 use super::waterplane::{Waterplane, largest};
 use crate::hull::{Hull, Immersion, Piece, UpperEnd, advance};
 use crate::numeric::{bracketed_root, gauss_legendre};

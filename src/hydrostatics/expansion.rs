@@ -1,7 +1,7 @@
 //! Expansions of integrands along a station in Legendre polynomials, whose integrals up to any height cost a few
 //! products.
 
-use super::station::Piece;
+use super::piece::Piece;
 use crate::numeric::gauss_legendre;
 
 /// From the values at Gauss nodes to the coefficients of Legendre polynomials.

@@ -4,10 +4,11 @@
 //! int z_v int_(u_0)^(u_m(v)) y x_u du dv with x(u_m(v), v) = L_PP / 2. The inner integral is exact span by span, the
 //! outer one an expansion along the station at midship, exact to rounding.
 
-use super::station::{StationSpan, Stations};
+use super::piece::StationSpan;
+use super::station::Stations;
 use crate::hull::{Hull, Immersion};
 use crate::numeric::gauss_legendre;
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::MAX_DEGREE;
 
 /// The volume between the start of the span `span` in u and x = `midship` (negative when midship is aft of it), both
 /// sides, below each immersion; none where the deck is immersed.

@@ -5,6 +5,8 @@ mod conventions;
 mod draughts;
 mod expansion;
 mod halves;
+mod node;
+mod piece;
 mod quantity;
 mod row;
 mod sections;

@@ -13,7 +13,8 @@
 //! seen.
 
 use super::expansion::Expansion;
-use super::station::{StationSpan, Stations};
+use super::piece::StationSpan;
+use super::station::Stations;
 use crate::hull::{Hull, Immersion};
 
 /// Sections equal to the largest one within this relative difference belong to the parallel middle body.

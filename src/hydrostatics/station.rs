@@ -10,10 +10,11 @@
 //! (b - a) t^2 (3 - 2t) takes out the square root that a round stem or stern brings.
 
 use super::expansion::{Expansion, Series, Transform};
-use super::volume::{Node, node_at};
+use super::node::{Node, node_at};
+use super::piece::{Piece, StationSpan};
 use crate::hull::{Hull, KnotLines};
 use crate::numeric::gauss_legendre;
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::MAX_DEGREE;
 
 /// Nodes at most on a piece.
 const MOST: usize = 2 * MAX_DEGREE + 2;
@@ -33,35 +34,6 @@ const NEGLIGIBLE: f64 = 1e-14;
 
 /// Halvings of a piece at most.
 const HALVINGS: usize = 12;
-
-/// Where a piece of the station lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum StationSpan {
-    /// The station passes aft of the stern profile.
-    Aft,
-    /// In a span of u, by its number.
-    Inside(usize),
-    /// Forward of the stem profile.
-    Fore,
-}
-
-/// A piece of a station between cuts.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Piece {
-    pub(super) from: f64,
-    pub(super) to: f64,
-    /// Number of the span in v.
-    pub(super) across: usize,
-    pub(super) place: StationSpan,
-    /// Local parameter in u, -1 to 1, near the station.
-    pub(super) start: f64,
-    /// Whether x depends on v.
-    slanting: bool,
-    /// Whether x depends on v and the span in u is an outermost one.
-    pub(super) profile: bool,
-    /// Whether it is a whole span in v.
-    whole: bool,
-}
 
 /// x and y of a cell of the knots, as polynomials in the local parameter of u with coefficients that are splines in v.
 struct Cell<const N: usize> {
@@ -218,7 +190,7 @@ impl<'a, const N: usize> Stations<'a, N> {
             .map(|&count| {
                 let mut nodes = Vec::with_capacity(count * spans_v.len());
                 for &span in &spans_v {
-                    super::volume::nodes::<N>(hull, span, f64::INFINITY, count, &mut nodes);
+                    crate::hydrostatics::node::nodes::<N>(hull, span, f64::INFINITY, count, &mut nodes);
                 }
                 (count, nodes)
             })

@@ -8,7 +8,7 @@ use super::station::Stations;
 use super::volume::{Body, bodies};
 use super::waterplane::{Rule, Waterplane, bottom_area, waterplane};
 use crate::hull::{Hull, Immersion, PrincipalParticulars, UpperEnd};
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::MAX_DEGREE;
 
 /// Hydrostatics of a hull at a list of draughts.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,8 +7,7 @@
 
 use crate::hull::{Hull, Immersion, Piece, UpperEnd};
 use crate::numeric::gauss_legendre;
-use crate::spline::BsplineCurve;
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineCurve, MAX_DEGREE};
 
 /// The rule in u, the same for every draught: one entry a span.
 pub(super) struct Rule {

@@ -4,8 +4,6 @@
 //! N_{i+1,j-1} upward from the one function of degree 0. A derivative of order m starts m rows lower and climbs with
 //! N'_{i,j} = j (N_{i,j-1} / (t_{i+j} - t_i) - N_{i+1,j-1} / (t_{i+j+1} - t_{i+1})). The reciprocals are precomputed.
 
-
-
 /// One value for each basis function of a span; those beyond the degree are 0.
 pub(super) type BasisValues = [f64; MAX_DEGREE + 1];
 
@@ -91,4 +89,3 @@ pub const MAX_DEGREE: usize = 7;
 
 /// The highest degree of a spline that is evaluated, cut and clamped, as CAD files have them.
 pub const HIGHEST_DEGREE: usize = 15;
-

@@ -1,8 +1,8 @@
 //! Bezier pieces of curves and surfaces: the polynomials between the knots, in Bernstein form.
 
+use super::basis::MAX_DEGREE;
 use super::curve::BsplineCurve;
 use super::knots::KnotVector;
-use super::basis::MAX_DEGREE;
 use super::refine::{apply, missing_for_bezier, refinement_rows};
 use super::surface::BsplineSurface;
 

@@ -1,7 +1,7 @@
 //! B-spline curves with D coordinates.
 
-use super::knots::{KnotVector, SplineError};
 use super::basis::MAX_DEGREE;
+use super::knots::{KnotVector, SplineError};
 
 /// C(t) = sum_i P_i N_i(t), D coordinates.
 #[derive(Debug, Clone, PartialEq)]

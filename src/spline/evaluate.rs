@@ -5,8 +5,8 @@
 //! needs no bases. A grid computes the bases once a line and collapses the net once a line u = constant, after which a
 //! point costs O(q).
 
-use super::jet::{SurfaceJet, add};
 use super::basis::MAX_DEGREE;
+use super::jet::{SurfaceJet, add};
 use super::surface::BsplineSurface;
 
 /// Point and first partial derivatives of a surface.

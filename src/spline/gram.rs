@@ -3,9 +3,8 @@
 //! Every integrand is a polynomial between the knots, integrated by a Gauss-Legendre rule of sufficient order; the
 //! error is that of rounding, about 1e-15 of the size of the result (Vermeulen, Bartels & Heppler 1992).
 
-use super::basis::BasisValues;
+use super::basis::{BasisValues, MAX_DEGREE};
 use super::knots::KnotVector;
-use super::basis::MAX_DEGREE;
 use crate::numeric::gauss_legendre;
 
 /// G_ij = int N_i^(a)(t) M_j^(b)(t) dt, stored as rows of its nonzero part.

@@ -1,7 +1,6 @@
 //! Knot vectors and the B-spline basis over them (Piegl & Tiller 1997, chapter 2; de Boor 2001, chapter IX).
 
-use super::basis::{HIGHEST_DEGREE, MAX_DEGREE};
-use super::basis::{BasisValues, WideValues, basis_orders, padded_orders};
+use super::basis::{BasisValues, HIGHEST_DEGREE, MAX_DEGREE, WideValues, basis_orders, padded_orders};
 use super::table::{Cubic, SpanTable};
 use std::sync::Arc;
 

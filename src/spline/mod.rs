@@ -31,15 +31,15 @@ mod table;
 mod vector;
 mod vertices;
 
+pub use basis::{HIGHEST_DEGREE, MAX_DEGREE};
 pub use bezier::{BezierCurve, BezierPatch};
 pub use curvature::SurfaceCurvature;
 pub use curve::BsplineCurve;
 pub use energy::{Energy, MinimumEnergy};
-pub use jet::SurfaceJet;
 pub use evaluate::SurfaceTangents;
 pub use fit::{Collocation, Condition};
 pub use gram::Gram;
-pub use basis::{HIGHEST_DEGREE, MAX_DEGREE};
+pub use jet::SurfaceJet;
 pub use knots::{KnotVector, SplineError};
 pub use least_squares::Ends;
 pub use net::{add_product, basis_row, binomial, energy};

@@ -5,9 +5,9 @@
 //! interpolant of exp(i t) in the derivative of order m is about 2 (n - 1)^(m - p - 1) (Golomb 1968). The cyclic matrix
 //! becomes a banded one when the unknowns are taken in the order 0, n - 1, 1, n - 2, ...
 
+use super::basis::MAX_DEGREE;
 use super::curve::BsplineCurve;
 use super::knots::{KnotVector, SplineError};
-use super::basis::MAX_DEGREE;
 use super::parametrize::check_sites;
 use super::refine::{apply, refinement_rows};
 use super::surface::BsplineSurface;

@@ -5,9 +5,8 @@
 //! old ones, so that rounding does not grow: shapes are kept to about 1e-15 of their size. Elevation is the mean over
 //! the blossoms that leave out one argument (Ramshaw 1989; Piegl & Tiller 1997, 5.5).
 
-use super::basis::{WideValues, blossom_row};
+use super::basis::{HIGHEST_DEGREE, MAX_DEGREE, WideValues, blossom_row};
 use super::curve::BsplineCurve;
-use super::basis::{HIGHEST_DEGREE, MAX_DEGREE};
 use super::knots::{KnotVector, SplineError};
 use super::surface::BsplineSurface;
 

@@ -1,7 +1,7 @@
 //! Random splines for the tests of this module.
 
-use super::{BsplineCurve, BsplineSurface, KnotVector};
 use super::basis::MAX_DEGREE;
+use super::{BsplineCurve, BsplineSurface, KnotVector};
 use proptest::prelude::*;
 
 /// Clamped knots of degree 1 to `highest`, with uneven spans and multiplicities up to the degree.

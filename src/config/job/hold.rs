@@ -3,10 +3,11 @@
 use super::super::design_targets::position_along;
 use super::super::document::{Document, Raw};
 use super::super::keys::Kind;
-use super::super::value::{Scalar, expected};
+use super::super::value::Scalar;
 use super::keys::HOLD;
 use super::ranges::allowed;
 use super::{AreaCurve, JobFile, Location};
+use crate::config::keys::expected;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::job::{AMIDSHIPS, Holding};
 use crate::units::Dimension;

@@ -206,18 +206,3 @@ pub const JOB_KEYS: &[Key] = &[
         "Greatest cost of removing an inflection: the sum of squared moves that it adds, over the noise squared. Default: 12; 2 keeps what noise of the size of tolerance.table / 3 does not explain.",
     ),
 ];
-
-/// Keys that had another name before, old and new; the old one is accepted.
-pub(in crate::config) const RENAMED: [(&str, &str); 1] = [("signs.price", "inflections.cost")];
-
-/// Keys that were removed, under all their names, and the key that serves instead.
-pub(in crate::config) const REMOVED: [(&str, &str); 8] = [
-    ("energy.order", "fairness"),
-    ("energy.anisotropy", "fairness"),
-    ("energy.true_curvature", "fairness"),
-    ("energy.exact_bending", "fairness"),
-    ("energy.bending", "fairness"),
-    ("inflections.remove", "fairness"),
-    ("signs.impose", "fairness"),
-    ("flat.keep", "flat.side"),
-];

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::super::diagnostic::Diagnostic;
 use super::super::document::{Document, Raw, nearest};
-use super::super::value::expected;
 use super::table_ref::TableRef;
 use super::{JobFile, Location};
+use crate::config::keys::expected;
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::{FixedLine, Rule, TangentPlace};
 use crate::fairing::proposals::Accepted;

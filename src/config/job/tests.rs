@@ -75,7 +75,7 @@ fn a_key_that_was_renamed_is_read_by_its_old_name() {
 
 #[test]
 fn a_key_that_was_removed_is_refused_with_what_serves() {
-    for (removed, serves) in keys::REMOVED {
+    for (removed, serves) in crate::config::keys::REMOVED {
         let (table, name) = removed.split_once('.').unwrap();
         let said = messages(&format!("fairness = 3\n[{table}]\n{name} = 3"));
         let expected = format!("E121 j.toml:3:1 {removed} was removed. Give {serves} instead: ");

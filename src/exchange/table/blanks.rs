@@ -4,7 +4,6 @@
 //! field where a program prints an index before each row. Where a row has fewer fields than the others, its fields go
 //! to the columns below which they stand, if the columns of the full rows are apart.
 
-use super::grid::MOST_COLUMNS;
 use super::header::{begins_as_number, plain_number};
 use super::problem::{Field, FilePosition, Problems};
 
@@ -180,6 +179,9 @@ fn of_tokens(rows: Vec<(usize, Vec<Token<'_>>)>) -> Vec<Vec<Field>> {
     };
     rows.into_iter().map(fields).collect()
 }
+
+/// The most fields of a row.
+pub const MOST_COLUMNS: usize = 4_000;
 
 #[cfg(test)]
 mod tests {

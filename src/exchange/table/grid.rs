@@ -3,6 +3,7 @@
 //! Tabs, semicolons, bars or commas part the fields, or blanks where none of these does. Fields follow RFC 4180: a field in quotes may hold separators, line ends and doubled quotes. A line whose first
 //! character is `#` is a comment; the last one before numbers alone, with as many fields as they have, is their header. Memory is bounded by [`LARGEST_TABLE`] bytes of text and [`MOST_CELLS`] fields.
 
+use super::blanks::MOST_COLUMNS;
 use std::borrow::Cow;
 
 use super::blanks;
@@ -13,8 +14,6 @@ use super::problem::{Field, FilePosition, Problems};
 pub const LARGEST_TABLE: usize = 16 << 20;
 /// The most rows of a file; a tidy table has one row an offset.
 pub const MOST_ROWS: usize = 200_000;
-/// The most fields of a row.
-pub const MOST_COLUMNS: usize = 4_000;
 /// The most stations, and the most waterlines, buttocks or lines of points; keeps comparisons of all with all short.
 pub const MOST_LINES: usize = MOST_COLUMNS;
 /// The most fields of a file.

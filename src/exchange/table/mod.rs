@@ -64,13 +64,14 @@ mod workbook;
 mod write;
 mod xlsx;
 
+pub use super::table::blanks::MOST_COLUMNS;
 pub(super) use body::body_faults;
 pub use body::{ReadBody, read_body};
 pub use britfair::write as write_britfair;
 pub use delftship::write as write_delftship;
 pub use freeship::write as write_freeship;
 pub use ghs::write as write_ghs;
-pub use grid::{LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINES, MOST_ROWS};
+pub use grid::{LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_LINES, MOST_ROWS};
 pub use michlet::write as write_michlet;
 pub use outline::section_of;
 pub use pdstrip::write as write_pdstrip;

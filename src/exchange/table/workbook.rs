@@ -15,9 +15,8 @@ use calamine::{DataRef, Dimensions, Reader as _, SheetVisible, Style, Xlsx};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
 use zip::ZipArchive;
 
-use super::grid::{
-    Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS, has_hash_labels, is_hash_label,
-};
+use super::blanks::MOST_COLUMNS;
+use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_ROWS, has_hash_labels, is_hash_label};
 use super::problem::{Field, FilePosition, Problems};
 use super::shown::{Around, hidden};
 use super::xlsx::{MOST_UNPACKED, Sheet};

@@ -3,7 +3,6 @@
 use super::super::bends::{Bend, Line, bend, inside, moving};
 use super::super::surface::FairSurface;
 
-
 /// A line that stays where the surface through the table has it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FixedLine {
@@ -99,4 +98,3 @@ pub(super) fn ranged(line: &Line, [from, to]: [f64; 2]) -> String {
         (true, true) => format!("{} from {axis} = {from:.3} to {to:.3} m", named(line)),
     }
 }
-

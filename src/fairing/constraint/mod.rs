@@ -300,9 +300,9 @@ impl Constraint {
     }
 }
 
+pub use super::constraint::lines::{FixedLine, TangentPlace};
 pub use breadth::{admit, between, breadths, broken, control_values, excess};
 pub use flat::{edged, edges};
-pub use super::constraint::lines::{FixedLine, TangentPlace};
 pub use rule::Rule;
 
 /// Part of the room of a centre that is left for a change of the volume or area that it is the centre of.

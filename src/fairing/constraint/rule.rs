@@ -1,10 +1,9 @@
 //! Rules for single lines and regions of a hull: each is a handful of rows over the net, exact where its file says so.
 
-use super::lines::{named, ranged};
-use super::lines::{FixedLine, TangentPlace, along};
 use super::super::bends::{Bend, Line, bend, inside, moving};
 use super::super::model::Limit;
 use super::super::surface::FairSurface;
+use super::lines::{FixedLine, TangentPlace, along, named, ranged};
 use super::{curvature, fixed, flat, monotone, tangent};
 
 /// A wish for a line or a region.
@@ -159,4 +158,3 @@ impl Rule {
         }
     }
 }
-

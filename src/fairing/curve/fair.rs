@@ -1,5 +1,6 @@
 //! The whole job of fairing a curve.
 
+use super::super::infeasible::Diagnosis;
 use super::super::infeasible::least_widening;
 use super::super::inflections::{Bands, BandsError, Inflections, minimum_inflections};
 use super::super::model::{Model, Row, value};
@@ -523,4 +524,3 @@ pub(super) struct Within {
     /// Whether no tolerance would do.
     pub(super) contradictory: bool,
 }
-

@@ -10,8 +10,7 @@ use super::density::Density;
 use super::net::{Break, DEGREE, Metric, Net, ORDER};
 use super::region::{Bend, Field};
 use crate::numeric::{SymmetricBand, gauss_legendre};
-use crate::spline::{BsplineSurface, Collocation, KnotVector, SplineError};
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineSurface, Collocation, KnotVector, MAX_DEGREE, SplineError};
 
 /// Nodes of the rule in each direction of a cell.
 const NODES: usize = 4;

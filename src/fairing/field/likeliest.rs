@@ -3,10 +3,10 @@
 use super::breaks::{FoundBreak, broken};
 use super::chart::Chart;
 use super::choice::{Chosen, Energies, WIDTHS, choose};
+use super::error::FieldError;
 use super::likelihood::{Cell, Readings};
 use super::line_errors::LineErrors;
 use super::net::Net;
-use super::error::FieldError;
 
 /// Powers of the steepness that are tried, the first with every chart: 0 where errors are alike in y, as written digits are,
 /// 1 where they are alike normal to the hull, as readings of a drawing are.

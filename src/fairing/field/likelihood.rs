@@ -437,4 +437,3 @@ pub fn smoothed(
 
 /// Scale of the errors of an offset that is exact, over that of others.
 pub const EXACT: f64 = 1e-3;
-

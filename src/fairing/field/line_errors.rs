@@ -13,9 +13,8 @@
 
 use super::super::lines::LineCourse;
 use super::choice::Chosen;
-use super::likelihood::{Cell, Observed, Readings};
+use super::likelihood::{Cell, EXACT, Observed, Readings};
 use super::net::Net;
-use super::likelihood::EXACT;
 
 /// Heights, or places along the ship, that differ by no more are those of one line \[m\].
 pub(super) const SAME: f64 = 1e-6;

@@ -6,8 +6,7 @@
 //! offsets agree to that (a perpendicular); a zero at which the field would have breadth. Otherwise it lies between the last station with breadth and the next one: the
 //! field says where.
 
-use super::likelihood::EXACT;
-use super::likelihood::{Cell, PLACES, Readings};
+use super::likelihood::{Cell, EXACT, PLACES, Readings};
 use super::rocker::Rocker;
 use crate::hull::{Marks, OffsetTable, StationOffsets, TransomPlane};
 

@@ -8,8 +8,8 @@
 //! level keel: the field and its chart are the same. The keel line is the quintic spline of greatest restricted likelihood
 //! through the heights of the keel ([`super::likelihood`] along one direction).
 
-use super::net::{DEGREE, ORDER};
 use super::likelihood::EXACT;
+use super::net::{DEGREE, ORDER};
 use crate::hull::{OffsetTable, Outermost, carried_on};
 use crate::numeric::gauss_legendre;
 use crate::spline::{BsplineCurve, KnotVector};

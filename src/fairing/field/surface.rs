@@ -1,16 +1,15 @@
 //! From the offsets of a table to the chart of its hull.
 
-use super::error::FieldError;
 use super::super::lines::LineCourse;
 use super::bent::Bent;
 use super::breaks::FoundBreak;
 use super::chart::{Chart, Shape};
 use super::choice::{Chosen, Energies};
+use super::error::FieldError;
 use super::likeliest::{Likeliest, likeliest};
-use super::likelihood::{ALLOWED, Cell, Observed, Readings, Smoothed, smoothed};
+use super::likelihood::{ALLOWED, Cell, EXACT, Observed, Readings, Smoothed, smoothed};
 use super::line_errors::{FoundErrors, LineErrors, SAME};
 use super::net::{Break, CLOSE, DEGREE, Metric, Net};
-use super::likelihood::EXACT;
 use super::observed::{End, Observations, Zero, ZeroKind};
 use super::region::{Bend, Field, steepness};
 use super::rocker::Rocker;

@@ -1,7 +1,6 @@
 //! The methods by which a table becomes a surface: the default, and those of five published systems with their settings.
 
-use crate::spline::basis::MAX_DEGREE;
-use crate::spline::Parametrization;
+use crate::spline::{MAX_DEGREE, Parametrization};
 use std::fmt;
 
 /// How a table becomes a surface.

@@ -4,8 +4,7 @@
 //! which never change a common sign nor an order; statements about signs made on a whole interval therefore hold, in
 //! floating point too, on each of its dyadic parts.
 
-use crate::spline::{BsplineCurve, KnotVector};
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineCurve, KnotVector, MAX_DEGREE};
 
 /// Most coefficients of one polynomial.
 pub(super) const ORDER: usize = MAX_DEGREE + 1;

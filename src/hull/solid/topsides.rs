@@ -14,8 +14,7 @@
 
 use super::super::form::Hull;
 use super::super::mesh::deck_parameter;
-use crate::spline::{BsplineSurface, KnotVector, SplineError, length, minus};
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineSurface, KnotVector, MAX_DEGREE, SplineError, length, minus};
 
 /// A deviation of this part of the breadth is small enough.
 const ENOUGH: f64 = 1e-9;

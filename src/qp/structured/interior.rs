@@ -2,9 +2,9 @@
 
 use super::super::problem::{Progress, Settings};
 use super::newton::{Newton, Right, Step};
-use super::schur::inverse;
 use super::point::{Direction, Iterate, Residuals, Slack};
 use super::scaled::Scaled;
+use super::schur::inverse;
 
 /// Residuals and complementarity of this size count when no iteration lowers them any more: the precision of the Newton
 /// systems is reached. So many iterations that do not halve them show it.

@@ -14,11 +14,10 @@
 //!
 //! For the inequalities inside, the right side comes as h = W g, which stays finite where W vanishes.
 
-use super::schur::inverse;
 use super::factor::Factor;
 use super::normal::Normal;
 use super::scaled::Scaled;
-use super::schur::Schur;
+use super::schur::{Schur, inverse};
 
 /// Weight 1/delta of the equalities inside the normal matrix, in units of the largest of the inequalities, and its
 /// limits.
@@ -170,4 +169,3 @@ impl Newton {
         }
     }
 }
-

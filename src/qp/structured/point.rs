@@ -1,5 +1,6 @@
 //! The iterate, its residuals and how far a direction may go.
 
+use super::super::problem::Interior;
 use super::newton::Step;
 use super::scaled::Scaled;
 

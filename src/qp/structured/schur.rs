@@ -77,4 +77,3 @@ impl Schur {
 pub(super) fn inverse(weight: f64) -> f64 {
     1.0 / weight.max(1e-30)
 }
-

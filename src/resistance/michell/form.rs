@@ -21,8 +21,7 @@ use super::waterlines::{NODES, Rings};
 use super::{TOLERANCES, factor, immersed_length};
 use crate::hull::Hull;
 use crate::numeric::gauss_legendre;
-use crate::spline::KnotVector;
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{KnotVector, MAX_DEGREE};
 
 /// A waterline v = constant with its weight.
 #[derive(Debug, Clone)]

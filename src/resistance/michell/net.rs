@@ -10,8 +10,7 @@
 
 use super::panel::{Moments, Panel, TERMS, oscillation, panels};
 use crate::hull::Hull;
-use crate::spline::{BsplineCurve, KnotVector};
-use crate::spline::basis::MAX_DEGREE;
+use crate::spline::{BsplineCurve, KnotVector, MAX_DEGREE};
 
 /// Basis functions of a span.
 const FUNCTIONS: usize = MAX_DEGREE + 1;

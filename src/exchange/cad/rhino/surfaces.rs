@@ -6,8 +6,7 @@ use super::cursor::{Cursor, Object};
 use super::curves::{Budget, as_spline, interval, knots, net, plane};
 use crate::exchange::fault::Faults;
 use crate::hull::FaceSurface;
-use crate::spline::{BsplineSurface, dot, length, minus};
-use crate::spline::basis::HIGHEST_DEGREE;
+use crate::spline::{BsplineSurface, HIGHEST_DEGREE, dot, length, minus};
 
 /// A surface with the ends of our parameters.
 #[derive(Debug, Clone)]

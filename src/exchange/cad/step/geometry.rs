@@ -6,8 +6,7 @@ use super::super::super::fault::Faults;
 use super::super::surfaces::{MOST_POINTS, spline_curve, surface};
 use super::read::{Instance, Value, numbers, whole};
 use crate::hull::{Conic, FaceSurface, SpaceCurve, frame};
-use crate::spline::BsplineSurface;
-use crate::spline::basis::HIGHEST_DEGREE;
+use crate::spline::{BsplineSurface, HIGHEST_DEGREE};
 
 /// Curves of curves, and surfaces of surfaces, at most.
 const DEEPEST: usize = 8;

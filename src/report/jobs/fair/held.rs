@@ -3,11 +3,11 @@
 use super::job::FairOutputs;
 use super::words::{counted, line_name, millimetres, more_than};
 use crate::exchange::priced;
+use crate::fairing::change::Turns;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::held::Held;
 use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::outcome::Outcome;
-use crate::fairing::change::Turns;
 use crate::fairing::relinearise::ON_TARGET;
 use crate::hydrostatics::Quantity;
 use crate::report::words::page::{fixed, fixed_sign, wrapped};
