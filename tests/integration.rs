@@ -75,6 +75,7 @@ mod table_errors;
 mod table_evidence;
 mod table_files;
 mod table_layouts;
+mod table_numbers;
 mod table_reading;
 mod table_sections;
 mod table_words;

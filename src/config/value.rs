@@ -1,6 +1,6 @@
 //! Values of the known keys: units, words, lists, and what is wrong with them.
 
-use super::keys::{FIGURES, Kind, expected};
+use super::keys::{Kind, expected};
 use std::ops::Range;
 
 use super::document::{Document, Raw, nearest};

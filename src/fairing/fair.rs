@@ -24,10 +24,8 @@ use super::rules::{counted_lines, rule_limits, turned};
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::strength::Few;
 use super::surface::FairSurface;
-use crate::hull::HullError;
-use crate::numeric::SingularMatrix;
-use crate::qp::{ProblemError, Settings};
-use crate::resistance::{NoWaveTerm, WaveResult};
+use crate::qp::Settings;
+use crate::resistance::WaveResult;
 
 /// Dearest signs where nobody says another price, in units of sigma^2.
 pub const PRICE: f64 = 12.0;

@@ -7,7 +7,6 @@
 use super::constraint::{Constraint, Rule, breadths};
 use super::error::FairError;
 use super::fair::{FairSettings, Prepared};
-use super::field::likelihood::ALLOWED;
 use super::field::observed::{DOUBTFUL, Observations};
 use super::field::points::Points;
 use super::field::rocker::Rocker;
@@ -17,12 +16,11 @@ use super::model::{Limit, Model, Reading, Stationary, value};
 use super::move_metric::move_metric;
 use super::program::{Program, Wishes};
 use super::robust::typical;
-use super::smoothing::{Smoothed, Smoother};
+use super::smoothing::Smoother;
 use super::surface::{FairSurface, Origin, Place, basis_row, readings};
 use crate::hull::{Functional, Hull, HullError, OffsetTable, StationOffsets, has_rocker, only_outlines};
 use crate::qp::Settings;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
-use std::collections::BTreeSet;
 
 /// A half-breadth of the bottom above this part of B is none of a keel.
 const KEEL: f64 = 1e-2;

@@ -3,13 +3,12 @@
 //! The surface through the table, the field or net that follows it, its noise and the search for the weight do not depend
 //! on the grade: they are made once.
 
-use super::start::Taken;
 use super::change::Turns;
 use super::changes::Watched;
 use super::job::{Job, JobError};
 use super::outcome::Outcome;
 use super::run::{Progress, Run};
-use super::start::Started;
+use super::start::Taken;
 use super::strength::Fairness;
 use crate::hull::OffsetTable;
 use crate::numeric::join;

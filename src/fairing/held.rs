@@ -3,7 +3,7 @@
 use super::choice::trial;
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairSettings, Faired};
-use super::model::{Limit, Model, value, violated};
+use super::model::{Model, violated};
 use super::program::{RowName, Solved};
 use super::surface::FairSurface;
 use crate::hull::Hull;

@@ -9,7 +9,6 @@ use super::inspect::{PolygonSigns, is_of_table, kind};
 use super::proposals::Proposal;
 use super::start::Taken;
 use super::strength::{Fairness, far_above};
-use super::surface::Origin;
 use super::suspects::Suspect;
 use crate::hull::{Cut, Hull, OffsetTable};
 use crate::numeric::median;

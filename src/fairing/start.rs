@@ -1,6 +1,5 @@
 //! From a table to the model that is faired: what is left out, the surface through the rest, accepted lines, the net.
 
-use std::sync::Arc;
 use super::changes::Watched;
 use super::constraint::{Rule, edged, edges};
 use super::fielded::{Likely, TableField};
@@ -13,6 +12,7 @@ use super::unbroken::{Along, Breaks};
 use crate::hull::{self, Entry, FitMethod, Hull, OffsetTable};
 use crate::numeric::join;
 use crate::units::counted;
+use std::sync::Arc;
 
 /// Most offsets that contradict a field of all others, over their number.
 const CONTRADICTING: f64 = 0.02;

@@ -15,8 +15,8 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
     if let Some(piece) = pieces.tables.first() {
         units_below(piece, settings, problems);
         let corner = piece.rows.first().and_then(|row| Corner::of(row.first()?.trimmed()).unit);
-        for text in texts().filter(|text| text.row > 0) {
-            units_by_kind(text.trimmed(), settings, problems);
+        for line in joined(texts()) {
+            units_by_kind(&line, settings, problems);
         }
         if settings.units.or(corner).is_none()
             && let Some((text, unit)) = texts().find_map(|text| Some((text, unit_of_text(text.trimmed())?)))
@@ -41,9 +41,9 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
     if let Some(text) = corner.filter(|text| counts_down(text.trimmed())) {
         problems.error("E311", text, "heights count downward, and are not read so".to_owned(), UPWARD);
     }
-    for text in texts().filter(|text| text.row > 0 && !text.text.starts_with('#')) {
-        settings.prose(text.trimmed());
-        settings.dimensions(text.trimmed(), problems);
+    for line in joined(texts().filter(|text| !text.text.starts_with('#'))) {
+        settings.prose(&line);
+        settings.dimensions(&line, problems);
     }
     let levels = texts().chain(corner).map(|text| text.trimmed()).find(|text| counts_from_waterline(text));
     settings.from_waterline = levels.map(str::to_owned);
@@ -62,6 +62,21 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
             None => problems.warning("W320", text.place(), half_taken(text.trimmed()), HALF_OR_FULL),
         }
     }
+}
+
+/// The texts of each row as one: a comma within a title parts it.
+fn joined<'f>(texts: impl Iterator<Item = &'f Field>) -> Vec<String> {
+    let mut lines: Vec<(usize, String)> = Vec::new();
+    for text in texts.filter(|text| text.row > 0) {
+        match lines.last_mut() {
+            Some((row, line)) if *row == text.row => {
+                line.push_str(", ");
+                line.push_str(text.trimmed());
+            }
+            _ => lines.push((text.row, text.trimmed().to_owned())),
+        }
+    }
+    lines.into_iter().map(|(_, line)| line).collect()
 }
 
 /// The largest number beside the breadth stated differs from it, or from its half, by less than this part.

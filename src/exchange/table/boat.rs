@@ -31,6 +31,7 @@ use crate::hull::{
     Entry, Kept, Marks, OffsetTable, Order, OutlinePoint, StationDatum, StationOffsets, TableForm, TableLayout,
     Written, WrittenLine, WrittenPoint,
 };
+use crate::units::{CellEntry, CellRules, Notation, parse_cell};
 
 /// Points of a section nearer than this are one \[m\].
 pub(super) const SAME_POINT: f64 = 1e-6;
@@ -95,10 +96,11 @@ pub(super) fn read(
     let corner = corner(&lines, positions_row);
     let width = |at: usize| {
         let cells = of_breadths(&lines).filter_map(|row| row.cells.get(at));
-        Size::of(cells, form.decimal_comma).largest / y.largest.max(f64::MIN_POSITIVE)
+        cells.filter_map(|field| length(field, form.decimal_comma)).fold(0.0, f64::max)
     };
-    let ends = [heads.first(), heads.last()].map(|head| head.map_or(0.0, |(at, _)| width(*at)));
-    let breadths = Breadths { largest: y.largest, ends, ..Breadths::default() };
+    let largest = heads.iter().map(|(at, _)| width(*at)).fold(0.0, f64::max);
+    let ends = [heads.first(), heads.last()].map(|head| head.map_or(0.0, |(at, _)| width(*at) / largest));
+    let breadths = Breadths { largest, ends, ..Breadths::default() };
     let origin = origin(settings, corner, &places, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(places.iter()), y, z], origin.numbers, problems);
     let datum = ends_from_midship(origin.datum, settings, &places, units.x, problems);
@@ -146,6 +148,14 @@ pub(super) fn read(
         table.stations.iter().map(|s| Kept { text: s.station.name.clone(), value: s.station.x }).collect();
     table.form = reader.finish();
     Some(table)
+}
+
+/// A length in the unit of the table, or in feet where it is written in feet, inches and eighths.
+fn length(field: &Field, decimal_comma: bool) -> Option<f64> {
+    match parse_cell(&field.text, CellRules { unit: Notation::Feet, decimal_comma }).ok()?.entry {
+        CellEntry::Length(length) => Some(length / Notation::Feet.metres(1.0)),
+        CellEntry::Absent | CellEntry::Unknown => None,
+    }
 }
 
 /// The rows of half-breadths.
@@ -204,7 +214,7 @@ fn breadths(lines: &Lines<'_>, settings: &Settings, problems: &mut Problems) -> 
     let of_breadths = |label: &&&Field| group_of(&label.text).0 == Some(Group::HalfBreadths);
     let says_half = |label: &&Field| {
         let lower = label.text.to_lowercase();
-        let says = |word: &str| word == "hb" || word == "halves" || word.starts_with("semi");
+        let says = |word: &str| matches!(word, "hb" | "y" | "halves") || word.starts_with("semi");
         lower.contains("half") || words(&lower).iter().any(|word| says(word))
     };
     if let Some(label) = lines.labels.iter().find(of_breadths).filter(|_| !lines.labels.iter().any(says_half)) {

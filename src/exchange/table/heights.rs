@@ -1,7 +1,7 @@
 //! Heights of waterlines: the distance between those that have numbers, and the plane from which heights count.
 
 use super::assemble::TableReader;
-use super::header::{Axis, Coordinate, Corner, Position, is_base_line};
+use super::header::{Axis, Coordinate, Corner, Position, is_base_line, is_level};
 use super::matrix::Block;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::{Settings, metres};
@@ -124,6 +124,7 @@ fn are_numbered(block: &Block, heads: &[Position], settings: &Settings, are_spac
     let by_corner = names_waterlines(block.corner.trimmed());
     // Halves may be written with a decimal sign, whole numbers are not.
     let count = |(head, field): (&Position, &Field)| match head.place {
+        Coordinate::Length(_) => is_level(field.trimmed()),
         Coordinate::Number(number) => {
             (4.0 * number).fract().abs() < 1e-9 && (!is_decimal(field.trimmed()) || number.fract().abs() > 1e-9)
         }

@@ -1,6 +1,6 @@
 //! Rules for single lines and regions of a hull: each is a handful of rows over the net, exact where its file says so.
 
-use super::super::bends::{Bend, Line, bend, inside, moving};
+use super::super::bends::Line;
 use super::super::model::Limit;
 use super::super::surface::FairSurface;
 use super::lines::{FixedLine, TangentPlace, along, named, ranged};

@@ -1,7 +1,7 @@
 //! The program without signs, kept near the points between them; where it has no answer, why, and the best compromise:
 //! tolerances a little wider, or within the tolerances the nearest that can be had of area, centroid and slopes.
 
-use super::super::infeasible::{Diagnosis, Target, diagnose, least_widening, nearest};
+use super::super::infeasible::{Target, diagnose, least_widening, nearest};
 use super::super::model::{Limit, value};
 use super::super::program::{Between, Solved, Wishes};
 use super::fair::{Job, SLACK, Within};

@@ -1,7 +1,7 @@
 //! The problem as the iteration sees it: variables in elimination order and of unit curvature each (Jacobi scaling: a
 //! net has control values whose energy is 1e11 times that of others), rows of unit size, an objective of unit curvature.
 
-use super::super::problem::{Interior, Problem};
+use super::super::problem::Problem;
 use super::super::sparse::SparseRows;
 use super::normal::elimination_order;
 
