@@ -43,7 +43,7 @@ fn codes(text: &str) -> Vec<(char, String)> {
 /// `tests/`, and those of the tests within the sources. The list of the codes itself is not looked at.
 fn known() -> [BTreeSet<String>; 3] {
     let [mut said, mut explained, mut tested] = [const { BTreeSet::new() }; 3];
-    let list = carried("src/report/codes");
+    let list = carried("src/report/words/codes");
     for file in sources(&carried("src")).iter().filter(|file| !file.with_extension("").starts_with(&list)) {
         let text = read_text(file);
         let own = file.file_name().is_some_and(|name| name == "tests.rs");
