@@ -12,7 +12,7 @@ use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 
 use crate::cli::config;
-use crate::support::{folder, json, names_in, program, stderr, stdout};
+use crate::support::{command, folder, json, names_in, program, stderr, stdout};
 
 const PARENTS: [&str; 7] = ["bulk-carrier", "container-ship", "fishing-vessel", "frigate", "tug", "wigley", "yacht"];
 
@@ -338,6 +338,42 @@ fn limits_are_printed_where_they_are_asked_for() {
         let [low, high] = [0, 1].map(|k| target["interval"][k].as_f64().unwrap());
         let achieved = target["achieved"].as_f64().unwrap();
         assert!(low <= achieved * (1.0 + 1e-9) && achieved <= high * (1.0 + 1e-9), "{target}");
+    }
+}
+
+/// Limits alone need no folder: nothing is written where none is named.
+#[test]
+fn limits_alone_write_nothing() {
+    let folder = folder("limits-alone");
+    for arguments in [
+        &["derive", "catalogue:wigley", "--cb", "0.45", "--limits"][..],
+        &["blend", "catalogue:wigley", "catalogue:wigley-i", "--cb", "0.5", "--limits"],
+    ] {
+        let output = command(arguments).current_dir(folder.join("")).output().unwrap();
+        assert!(output.status.success() && stdout(&output).contains(" can be "), "{}", stderr(&output));
+    }
+    assert!(names_in(folder.join("")).is_empty());
+}
+
+/// LCB and LCF without a volume that is held are ratios: no vertex is left where another one has more.
+#[test]
+fn ends_of_ratios_are_ends() {
+    let tug = read_source(config("tug.toml").as_ref()).unwrap();
+    let reference = Reference::of(&tug.hull, &tug.conventions).unwrap();
+    let lcf = value_of(Quantity::Lcf, &tug.hull, &reference);
+    let request = |value: f64| Request {
+        targets: vec![(Quantity::Lcf, value)],
+        free: vec![Quantity::Volume, Quantity::Lcb, Quantity::MidshipCoefficient],
+        ..Request::default()
+    };
+    let found = derive(&tug.hull, &request(lcf), &tug.conventions, true).unwrap();
+    let interval =
+        found.targets.iter().find(|target| target.target.quantity == Quantity::Lcf).unwrap().interval.unwrap();
+    assert!(interval.low < lcf - 0.5 && interval.high > lcf + 0.5, "{interval:?}");
+    for (inside, outside) in [(0.001, -0.02), (0.999, 1.02)] {
+        let at = |part: f64| interval.low + part * (interval.high - interval.low);
+        assert!(derive(&tug.hull, &request(at(inside)), &tug.conventions, false).is_ok(), "{interval:?} {inside}");
+        assert!(derive(&tug.hull, &request(at(outside)), &tug.conventions, false).is_err(), "{interval:?} {outside}");
     }
 }
 

@@ -135,7 +135,39 @@ fn a_bilge_radius_stands_for_a_midship_coefficient() {
     let wide = refused(&[("bilge_radius", "3.7 m")]);
     assert!(wide.contains("--bilge-radius") && wide.contains("at most 3.600 m"), "{wide}");
     let sharp = refused(&[("bilge_radius", "0.3 m")]);
-    assert!(sharp.contains("E420") && sharp.contains("--bilge-radius"), "{sharp}");
+    let (_, rest) = sharp.split_once("E420 --bilge-radius bilge radius 0.300 m is out of reach: ").unwrap();
+    let (low, rest) = rest.split_once(" m to ").unwrap();
+    let (high, _) = rest.split_once(" m with C_B").unwrap();
+    let [low, high] = [low, high].map(|end| end.parse::<f64>().unwrap());
+    assert!(low > 0.3 && high > low && high <= 3.6, "{sharp}");
+    // What it names as the nearest is met.
+    let (_, nearest) = sharp.split_once("Give bilge radius ").unwrap();
+    let (nearest, _) = nearest.split_once(',').unwrap();
+    let daughter = derived("tug", &[("bilge_radius", nearest)]);
+    let midship = daughter.targets.iter().find(|target| target.key == "CM").unwrap();
+    assert!((midship.achieved / midship.requested - 1.0).abs() < 1e-10, "{nearest} {midship:?}");
+}
+
+/// What lies at a height, or a position, comes to another one, and the targets are met all the same.
+#[test]
+fn lines_are_moved_to_where_they_are_wanted() {
+    let plain = derived("tug", &[]);
+    let [_, columns] = plain.derived.scaled.surface().shape();
+    let height = |outputs: &DeriveOutputs, j: usize| outputs.derived.scaled.surface().point(0, j)[2];
+    let line = (0..columns).rev().find(|&j| height(&plain, j) < 4.4).unwrap();
+    let (from, to) = (height(&plain, line), height(&plain, line) + 0.07);
+    let aft = plain.derived.scaled.surface().points().iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+    let moved = [("move_height", format!("{from} m : {to} m")), ("move_position", format!("{aft}:{}", aft - 0.4))];
+    let moved: Vec<(&str, &str)> = moved.iter().map(|(key, value)| (*key, value.as_str())).collect();
+    let outputs = derived("tug", &moved);
+    assert!((height(&outputs, line) - to).abs() < 1e-12);
+    let now = outputs.derived.hull.surface().points().iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+    assert!((now - aft + 0.4).abs() < 1e-12, "{now} {aft}");
+    for target in &outputs.targets {
+        assert!((target.achieved / target.requested - 1.0).abs() < 1e-10, "{target:?}");
+    }
+    let folded = derive_outputs(&job("tug", &[("move_height", "4.2:5.2")]), &[]).err().unwrap().to_string();
+    assert!(folded.contains("E420 --move-height") && folded.contains("Give "), "{folded}");
 }
 
 /// The price of a target is the derivative of the bending by it, with its sign; the gap is that of the optimum itself.

@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     /// waterline_spacing; may be repeated
     #[arg(long, value_parser = of_hull, value_name = "N:KEY=VALUE")]
     of: Vec<OfHull>,
-    /// Print what each target can be with the others as they are
+    /// Print what each target can be with the others as they are; without --output no files are written
     #[arg(long)]
     limits: bool,
     #[command(flatten)]
@@ -83,9 +83,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let read: Vec<PathBuf> = job.hulls.iter().flat_map(|path| source_files(path)).collect();
     let inputs = Inputs::of(&read);
     let destination = Destination { folder: &folder, inputs: &inputs, force: arguments.files.force };
-    destination.check(["hull.json", "blend.json", "manifest.json"])?;
-    let outputs = blend_outputs(&job, &arguments.figures.chosen(&arguments.files, &FIGURES_OF_MADE))?;
-    let made = Made { notes: &outputs.notes, warnings: &outputs.warnings, verdict: outputs.verdict() };
+    let is_written = arguments.files.is_written(arguments.limits);
+    let mut figures = Vec::new();
+    if is_written {
+        destination.check(["hull.json", "blend.json", "manifest.json"])?;
+        figures = arguments.figures.chosen(&arguments.files, &FIGURES_OF_MADE);
+    }
+    let outputs = blend_outputs(&job, &figures)?;
+    let made = Made { is_written, notes: &outputs.notes, warnings: &outputs.warnings, verdict: outputs.verdict() };
     arguments.files.finish(
         &destination,
         made,

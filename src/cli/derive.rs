@@ -35,6 +35,12 @@ pub(super) struct Arguments {
     /// Aft and fore end of the parallel body, as 40,55, with --method nearest or lackenby
     #[arg(long, value_name = "AFT,FORE", allow_hyphen_values = true, help_heading = TARGETS)]
     parallel_body: Option<String>,
+    /// What lies at height FROM of the scaled parent, as a level knuckle, comes to TO: "3.2 m:3.6 m"; may be repeated
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, help_heading = TARGETS)]
+    move_height: Vec<String>,
+    /// The same along the ship, forward of AP, as of a transom: "-2 m:-2.5 m"; may be repeated
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, help_heading = TARGETS)]
+    move_position: Vec<String>,
     /// Froude numbers at which the wave resistance is made small, as 0.25:0.30:0.01, with displacement, centres and signs held
     #[arg(long, value_name = "LIST", help_heading = TARGETS)]
     wave_resistance: Option<String>,
@@ -47,7 +53,7 @@ pub(super) struct Arguments {
     /// What is not kept although nothing states it: displacement, lcb or cm; may be repeated
     #[arg(long, value_name = "NAME", help_heading = TARGETS)]
     free: Vec<String>,
-    /// Print what each target can be with the others as they are
+    /// Print what each target can be with the others as they are; without --output no files are written
     #[arg(long)]
     limits: bool,
     #[command(flatten)]
@@ -68,7 +74,7 @@ centreplane and flat of side stay. lackenby and one-minus-prismatic: the classic
 dimensions alone.
 --wave-resistance adds the mean of R_W over that of the parent to the bending, of thin ships (Michell), as one convex program.
 A job file has the same in [derive]: parent, method, Lpp, B, T, D, displacement, Cb, Cp, Cm, Cwp, LCB, LCF, KB, KM, GM, KG, \
-bilge_radius, wetted_surface, entrance, run, section_areas, parallel_body, wave_resistance, wave_weight, within, free. Options override it.
+bilge_radius, wetted_surface, entrance, run, section_areas, parallel_body, move_height, move_position, wave_resistance, wave_weight, within, free. Options override it.
 Files: those of generate, derive.json, compare.md, compare.csv, compare.json and the figures that compare parent and daughter. Exit code 4 \
 when no daughter meets the targets; the message states what is within reach.";
 
@@ -87,8 +93,14 @@ impl Arguments {
         if self.bilge_radius.is_some() && self.targets.states_midship() {
             return Err(Failure::Usage("--bilge-radius and --cm are one target: leave one of them out".to_owned()));
         }
-        let free = self.free.iter().map(|name| ("--free", "free", Some(name)));
-        self.targets.wanted(&own.into_iter().chain(free).collect::<Vec<_>>())
+        let lists = [
+            ("--free", "free", &self.free),
+            ("--move-height", "move_height", &self.move_height),
+            ("--move-position", "move_position", &self.move_position),
+        ];
+        let repeated =
+            lists.into_iter().flat_map(|(option, key, list)| list.iter().map(move |v| (option, key, Some(v))));
+        self.targets.wanted(&own.into_iter().chain(repeated).collect::<Vec<_>>())
     }
 }
 
@@ -100,9 +112,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     read.extend(job.other_inputs());
     let inputs = Inputs::of(&read);
     let destination = Destination { folder: &folder, inputs: &inputs, force: arguments.files.force };
-    destination.check(["hull.json", "derive.json", "manifest.json"])?;
-    let outputs = derive_outputs(&job, &arguments.figures.chosen(&arguments.files, &FIGURES_OF_MADE))?;
-    let made = Made { notes: &outputs.notes, warnings: &outputs.warnings, verdict: outputs.verdict() };
+    let is_written = arguments.files.is_written(arguments.limits);
+    let mut figures = Vec::new();
+    if is_written {
+        destination.check(["hull.json", "derive.json", "manifest.json"])?;
+        figures = arguments.figures.chosen(&arguments.files, &FIGURES_OF_MADE);
+    }
+    let outputs = derive_outputs(&job, &figures)?;
+    let made = Made { is_written, notes: &outputs.notes, warnings: &outputs.warnings, verdict: outputs.verdict() };
     arguments.files.finish(
         &destination,
         made,

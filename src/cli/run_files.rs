@@ -40,6 +40,8 @@ pub(super) const FIGURES_OF_MADE: [&str; 5] = ["lines", "sections", "sectional-a
 
 /// What a command that makes one hull from others comes to.
 pub(super) struct Made<'a> {
+    /// Whether its files are written.
+    pub(super) is_written: bool,
     pub(super) notes: &'a [String],
     pub(super) warnings: &'a [String],
     pub(super) verdict: Result<(), Failure>,
@@ -59,13 +61,20 @@ impl RunFiles {
             made.notes.iter().for_each(|note| stream::message(note));
         }
         made.warnings.iter().for_each(|warning| stream::message(warning));
-        destination.write_run(&files()?)?;
+        if made.is_written {
+            destination.write_run(&files()?)?;
+        }
         if self.json {
             stream::data(&stream::json_judged(record(), &made.verdict)?)?;
         } else if !self.quiet {
             stream::page(&page())?;
         }
         made.verdict
+    }
+
+    /// Whether files are written: not where limits alone are asked for, and no folder.
+    pub(super) fn is_written(&self, limits: bool) -> bool {
+        self.output.is_some() || !limits
     }
 
     /// The folder for the files about one input; `several` when the command was given more than one.

@@ -104,6 +104,8 @@ impl TargetFlags {
             let Some(value) = value else { continue };
             match read_derive_option(option, key, value) {
                 Ok(one) if key == "free" => wanted.free.extend(one.free),
+                Ok(one) if key == "move_height" => wanted.moved_heights.extend(one.moved_heights),
+                Ok(one) if key == "move_position" => wanted.moved_positions.extend(one.moved_positions),
                 Ok(one) => wanted = wanted.over(one),
                 Err(found) => problems.extend(found),
             }

@@ -12,7 +12,7 @@ use super::design_targets::position_along;
 use super::diagnostic::Diagnostic;
 use super::document::{Document, Raw};
 use super::keys::{Key, Kind, key};
-use crate::units::Dimension;
+use crate::units::{Dimension, parse_length};
 
 /// Words for `derive.method`.
 const METHODS: [&str; 4] = ["affine", "one-minus-prismatic", "lackenby", "nearest"];
@@ -72,6 +72,16 @@ pub const DERIVE_KEYS: &[Key] = &[
         "Aft and fore end of the parallel body, of the methods nearest and lackenby. Default: of the parent.",
     ),
     of(
+        "move_height",
+        Kind::Phrases("\"3.2 m : 3.6 m\""),
+        "What lies at the first height of the scaled parent, as a level knuckle or an edge of a flat, comes to the second. Default: none.",
+    ),
+    of(
+        "move_position",
+        Kind::Phrases("\"-2 m : -2.5 m\""),
+        "The same along the ship, forward of AP, as of a transom or the end of a knuckle. Default: none.",
+    ),
+    of(
         "wave_resistance",
         Kind::Positions,
         "Froude numbers at which the wave resistance is made small, as \"0.25:0.30:0.01\". Default: none.",
@@ -116,6 +126,10 @@ pub struct DeriveFile {
     pub area_file: Option<String>,
     /// Aft and fore end of the parallel body \[m\].
     pub parallel_body: Option<[f64; 2]>,
+    /// Heights that lines come from and to \[m\].
+    pub moved_heights: Vec<[f64; 2]>,
+    /// The same of positions forward of AP.
+    pub moved_positions: Vec<[f64; 2]>,
     /// Froude numbers at which the wave resistance is made small.
     pub froude_numbers: Option<Vec<f64>>,
     /// Weight of the wave resistance [m^2].
@@ -166,6 +180,8 @@ impl DeriveFile {
             section_areas,
             area_file,
             parallel_body: self.parallel_body.or(other.parallel_body),
+            moved_heights: if self.moved_heights.is_empty() { other.moved_heights } else { self.moved_heights },
+            moved_positions: if self.moved_positions.is_empty() { other.moved_positions } else { self.moved_positions },
             froude_numbers: self.froude_numbers.or(other.froude_numbers),
             wave_weight: self.wave_weight.or(other.wave_weight),
             within: self.within.or(other.within),
@@ -332,6 +348,30 @@ fn parallel_body(document: &mut Document<'_>) -> Option<[f64; 2]> {
     None
 }
 
+/// Lengths from and to.
+fn moves(document: &mut Document<'_>, path: &str) -> Vec<[f64; 2]> {
+    let Some((raw, span, kind)) = document.raw(path) else { return Vec::new() };
+    let items = match raw {
+        Raw::Array(items) => items,
+        single => vec![(single, span)],
+    };
+    let mut found = Vec::new();
+    for (item, at) in items {
+        let Raw::Text(text) = &item else {
+            document.unexpected(path, &item, &at, kind);
+            continue;
+        };
+        let pair = text.split_once(':').map(|(from, to)| [from, to].map(|part| parse_length(part.trim()).ok()));
+        if let Some([Some(from), Some(to)]) = pair {
+            found.push([from, to]);
+        } else {
+            let message = format!("{path} is {text:?}, and not two lengths");
+            document.problem("E122", path, &at, message, "Expected from and to, as \"3.2 m : 3.6 m\".".to_owned());
+        }
+    }
+    found
+}
+
 fn interpret(document: &mut Document<'_>) -> DeriveFile {
     document.integer("schema");
     let displacement = document.dimensioned("derive.displacement");
@@ -370,6 +410,8 @@ fn interpret(document: &mut Document<'_>) -> DeriveFile {
         section_areas,
         area_file,
         parallel_body: parallel_body(document),
+        moved_heights: moves(document, "derive.move_height"),
+        moved_positions: moves(document, "derive.move_position"),
         froude_numbers: document.froude_numbers("derive.wave_resistance"),
         wave_weight: positive(document, "derive.wave_weight", "weight"),
         within: positive(document, "derive.within", "length"),

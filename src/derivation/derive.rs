@@ -1,14 +1,18 @@
 //! From a parent and a request to a daughter.
 
+use std::sync::OnceLock;
+
 use super::affine::scaled;
 use super::inflections::{counted_planes, inflections};
 use super::limits::Interval;
+use super::moved::with_moves;
 use super::nearest::{BindingLimits, Failed, Search};
 use super::parallel;
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
 use super::request::{Laws, Method, Request, Target};
 use super::shift::{Ends, Family, LEVEL_FOLD, level, shifted};
+use crate::fairing::inspect::Planes;
 use crate::hull::Hull;
 use crate::hydrostatics::Conventions;
 use crate::numeric::join;
@@ -16,6 +20,8 @@ use crate::resistance::WaveResult;
 
 /// Part of the amplitude at which a shift folds that the start of the nearest hull takes at most.
 pub(super) const OF_FOLD: f64 = 0.8;
+/// Amplitudes of shifts that are closer make the same start.
+const SAME_SHIFT: f64 = 1e-3;
 /// Parts of the way to the targets that the shift takes, in the order in which they are tried.
 const PARTS: [f64; 3] = [0.5, 1.0, 0.0];
 
@@ -38,7 +44,7 @@ pub struct Reached {
 /// A daughter.
 #[derive(Debug, Clone)]
 pub struct Derived {
-    /// The parent at the dimensions of the daughter.
+    /// The parent at the dimensions of the daughter, with the lines moved that are to be elsewhere.
     pub scaled: Hull,
     /// The daughter.
     pub hull: Hull,
@@ -89,6 +95,7 @@ pub fn derive(
         return Err(vec![Refusal::no_draught()]);
     }
     let mut scaled = scaled(parent, &request.dimensions).map_err(|refusal| vec![refusal])?;
+    scaled = with_moves(&scaled, &request.moved_heights, &request.moved_positions).map_err(|refusal| vec![refusal])?;
     let body = request.parallel_body.filter(|_| request.method == Method::Nearest);
     if let Some((ends, draught)) = body.zip(scaled.particulars().draught) {
         scaled = parallel::with_ends(&scaled, draught, ends).map_err(|refusal| vec![refusal])?;
@@ -96,7 +103,8 @@ pub fn derive(
     let Some(reference) = Reference::of(&scaled, conventions) else { return Err(vec![Refusal::no_draught()]) };
     let Some(own) = Reference::of(parent, conventions) else { return Err(vec![Refusal::no_draught()]) };
     let targets = request.targets(&Laws { parent, own, scaled: &scaled }, &reference)?;
-    let job = Job { scaled: &scaled, request, reference, targets: &targets, conventions, body };
+    let counted = Counted { planes: counted_planes(&scaled, conventions.stations), before: OnceLock::new() };
+    let job = Job { scaled: &scaled, request, reference, targets: &targets, conventions, body, counted: &counted };
     let mut derived = match request.method {
         Method::Affine => Ok(job.affine()),
         Method::OneMinusPrismatic | Method::Lackenby => job.classical(),
@@ -106,8 +114,7 @@ pub fn derive(
         }),
     }?;
     if request.method != Method::Nearest {
-        let planes = counted_planes(&scaled, conventions.stations);
-        let (before, after) = join(|| inflections(&scaled, &planes), || inflections(&derived.hull, &planes));
+        let (before, after) = join(|| counted.before(&scaled), || inflections(&derived.hull, &counted.planes));
         derived.inflections = [before, after];
     }
     if intervals && request.method == Method::Nearest {
@@ -120,8 +127,29 @@ pub fn derive(
     Ok(derived)
 }
 
+/// What ends the search for the best of several starts.
+#[derive(Debug, Default)]
+pub(super) struct Wanted {
+    /// The first daughter is enough.
+    pub(super) first: bool,
+    /// The signs of curvature are known to be infeasible.
+    pub(super) without_signs: bool,
+}
+
 /// A daughter with the shifted parent that it is nearest to, and the amplitudes of the shift.
 type Started = (Derived, Hull, [f64; 2]);
+
+/// Where inflections are counted, and how many the scaled parent has.
+pub(super) struct Counted {
+    pub(super) planes: Planes,
+    before: OnceLock<usize>,
+}
+
+impl Counted {
+    fn before(&self, scaled: &Hull) -> usize {
+        *self.before.get_or_init(|| inflections(scaled, &self.planes))
+    }
+}
 
 /// What a daughter is made of.
 pub(super) struct Job<'a> {
@@ -132,6 +160,7 @@ pub(super) struct Job<'a> {
     pub(super) conventions: &'a Conventions,
     /// Ends of the parallel body of the nearest hull.
     pub(super) body: Option<[f64; 2]>,
+    pub(super) counted: &'a Counted,
 }
 
 impl Job<'_> {
@@ -205,28 +234,46 @@ impl Job<'_> {
     /// The hull nearest to starts with different parts of the shift: the first one without more inflections than the scaled
     /// parent, or the one with the fewest.
     fn nearest(&self) -> Result<Started, Vec<Refusal>> {
-        self.best().map_err(|failure| failure.map_or(Vec::new(), |failure| self.infeasible(&failure.0, &failure.1)))
+        self.best(&Wanted::default())
+            .map_err(|failure| failure.map_or(Vec::new(), |failure| self.infeasible(&failure.0, &failure.1)))
     }
 
     /// The same; where none is found, the first start with why it has none.
-    pub(super) fn best(&self) -> Result<Started, Option<Box<(Hull, Failed)>>> {
-        let planes = counted_planes(self.scaled, self.conventions.stations);
-        let before = inflections(self.scaled, &planes);
+    pub(super) fn best(&self, wanted: &Wanted) -> Result<Started, Option<Box<(Hull, Failed)>>> {
+        let planes = &self.counted.planes;
         let mut best: Option<((usize, bool, bool), Started)> = None;
         let mut failure = None;
+        let mut tried: Vec<[f64; 2]> = Vec::new();
         for part in PARTS {
             let (start, amplitudes) = self.started(part);
-            let search = self.search(&start);
-            match self.nearest_to(search, amplitudes) {
+            let is_same = |other: &[f64; 2]| amplitudes.iter().zip(other).all(|(a, b)| (a - b).abs() < SAME_SHIFT);
+            if tried.iter().any(is_same) {
+                continue;
+            }
+            tried.push(amplitudes);
+            let mut search = self.search(&start);
+            if wanted.without_signs {
+                search.without_signs();
+            } else if best.is_none() && failure.is_some() {
+                // Where another start had nothing even without signs, these are tried last.
+                let mut without = search.clone();
+                without.without_signs();
+                if without.run().is_err() && (!without.without_own_body() || without.run().is_err()) {
+                    continue;
+                }
+            }
+            match self.nearest_to(&mut search, amplitudes) {
                 Ok(derived) => {
-                    let after = inflections(&derived.hull, &planes);
+                    let before = self.counted.before(self.scaled);
+                    let after = inflections(&derived.hull, planes);
                     let rank = (after.max(before), !derived.keeps_signs, !derived.keeps_body);
                     let derived = Derived { inflections: [before, after], ..derived };
                     if best.as_ref().is_none_or(|(other, _)| rank < *other) {
                         best = Some((rank, (derived, start.clone(), amplitudes)));
                     }
                     // Without a shift all parts are one.
-                    if rank == (before, false, false) || amplitudes.iter().all(|a| a.abs() < 1e-12) {
+                    let is_still = amplitudes.iter().all(|a| a.abs() < 1e-12);
+                    if rank == (before, false, false) || wanted.first || is_still {
                         break;
                     }
                 }
@@ -261,14 +308,14 @@ impl Job<'_> {
     }
 
     /// The hull nearest to a start, with the signs of curvature of the parent where they are feasible.
-    pub(super) fn nearest_to(&self, mut search: Search<'_>, amplitudes: [f64; 2]) -> Result<Derived, Failed> {
-        let (mut keeps_signs, mut keeps_body) = (true, true);
+    pub(super) fn nearest_to(&self, search: &mut Search<'_>, amplitudes: [f64; 2]) -> Result<Derived, Failed> {
+        let (mut keeps_signs, mut keeps_body) = (search.has_signs(), true);
         let mut found = search.run();
         if found.is_err() && search.without_own_body() {
             keeps_body = false;
             found = search.run();
         }
-        if found.is_err() {
+        if found.is_err() && keeps_signs {
             keeps_signs = false;
             search.without_signs();
             found = search.run();

@@ -1,11 +1,11 @@
 //! Why the nearest hull has not what is asked for, with what is within reach.
 
-use super::derive::Job;
+use super::derive::{Job, Wanted};
 use super::inflections::is_about_as_fair;
 use super::limits::Interval;
 use super::nearest::{Failed, Search};
 use super::parallel::with_ends;
-use super::quantity::{Quantity, value_of};
+use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
 use super::request::{Origin, Target};
 use crate::hull::Hull;
@@ -54,7 +54,8 @@ impl Job<'_> {
             let mut targets = others.to_vec();
             targets.push(Target { value, ..*target });
             let job = Job { targets: &targets, ..*self };
-            let Ok((derived, ..)) = job.best() else { continue };
+            let wanted = Wanted { first: true, without_signs: !found.keeps_signs };
+            let Ok((derived, ..)) = job.best(&wanted) else { continue };
             let [before, after] = derived.inflections;
             if is_about_as_fair(before, after) {
                 return Some((value, true));
@@ -71,7 +72,7 @@ impl Job<'_> {
                 format!("Give {}, which is met, or free a target that is kept", self.shown(target.quantity, value))
             }
             Some((value, false)) => format!(
-                "Give {}, which is met with more than one and a half times the inflections, or free a target that is kept",
+                "Give {}, which is met, maybe with more than one and a half times the inflections, or free a target that is kept",
                 self.shown(target.quantity, value)
             ),
             None => {
@@ -155,28 +156,38 @@ impl Job<'_> {
         Refusal::new("E420", vec![target.quantity.word()], message, remedy)
     }
 
-    /// The interval in the digits that are shown, rounded inwards, so that its ends are feasible.
+    /// The interval in the digits that are shown, rounded inwards, so that its ends are feasible; rising as it is shown.
     fn inwards(&self, quantity: Quantity, found: &Interval) -> [f64; 2] {
         let scale = self.scale(quantity);
-        let [low, high] = [scale.steps(found.low).ceil(), scale.steps(found.high).floor()];
-        if low <= high { [low, high].map(|steps| scale.value(steps)) } else { [found.low, found.high] }
+        let mut ends = [found.low, found.high];
+        ends.sort_by(|a, b| scale.steps(*a).total_cmp(&scale.steps(*b)));
+        let [low, high] = [scale.steps(ends[0]).ceil(), scale.steps(ends[1]).floor()];
+        if low <= high { [low, high].map(|steps| scale.value(steps)) } else { ends }
     }
 
     /// A value in the digits that are shown, within an interval where one is.
     fn rounded(&self, quantity: Quantity, value: f64, found: &Interval) -> f64 {
         let scale = self.scale(quantity);
-        let [low, high] = self.inwards(quantity, found);
-        scale.value(scale.steps(value).round()).clamp(low, high)
+        let [a, b] = self.inwards(quantity, found);
+        scale.value(scale.steps(value).round()).clamp(a.min(b), a.max(b))
     }
 
-    /// How a value is stated: volumes as C_B, LCB and LCF in per cent.
+    /// How a value is stated: volumes as C_B, LCB and LCF in per cent, C_M as the bilge radius where that is given.
     fn scale(&self, quantity: Quantity) -> Scale {
-        let of = |name, factor, offset, decimals, unit| Scale { name, factor, offset, decimals, unit };
+        let of = |name, factor, offset, decimals, unit| Scale {
+            name,
+            measure: Measure::Linear { factor, offset },
+            decimals,
+            unit,
+        };
         let percent = |name| of(name, 100.0 / self.reference.between, -50.0, 3, " % of Lpp");
         match quantity {
             Quantity::Volume => of("C_B", 1.0 / self.reference.volume(), 0.0, 4, ""),
             Quantity::Lcb => percent("LCB"),
             Quantity::Lcf => percent("LCF"),
+            Quantity::MidshipCoefficient if self.request.bilge_radius.is_some() => {
+                Scale { name: "bilge radius", measure: Measure::Radius(self.reference), decimals: 3, unit: " m" }
+            }
             Quantity::MidshipCoefficient => of("C_M", 1.0, 0.0, 4, ""),
             Quantity::PrismaticCoefficient => of("C_P", 1.0, 0.0, 4, ""),
             Quantity::WaterplaneCoefficient => of("C_WP", 1.0, 0.0, 4, ""),
@@ -190,9 +201,10 @@ impl Job<'_> {
     }
 
     fn number(&self, quantity: Quantity, value: f64) -> String {
-        let Scale { factor, offset, decimals, unit, .. } = self.scale(quantity);
-        let (value, decimals) = (factor * value + offset, usize::from(decimals));
-        if offset < 0.0 { format!("{value:+.decimals$}{unit}") } else { format!("{value:.decimals$}{unit}") }
+        let scale = self.scale(quantity);
+        let (value, decimals, unit) = (scale.stated(value), usize::from(scale.decimals), scale.unit);
+        let has_sign = matches!(scale.measure, Measure::Linear { offset, .. } if offset < 0.0);
+        if has_sign { format!("{value:+.decimals$}{unit}") } else { format!("{value:.decimals$}{unit}") }
     }
 
     /// A value with its name and unit.
@@ -202,23 +214,42 @@ impl Job<'_> {
     }
 }
 
-/// How values of a quantity are stated: factor times value and offset, with decimals and unit.
+/// How values of a quantity are stated, with decimals and unit.
 #[derive(Debug, Clone, Copy)]
 struct Scale {
     name: &'static str,
-    factor: f64,
-    offset: f64,
+    measure: Measure,
     decimals: u8,
     unit: &'static str,
 }
 
+/// What is stated in the place of a value.
+#[derive(Debug, Clone, Copy)]
+enum Measure {
+    /// factor times value and offset
+    Linear { factor: f64, offset: f64 },
+    /// The bilge radius of C_M, as far as it fits into the section.
+    Radius(Reference),
+}
+
 impl Scale {
+    fn stated(&self, value: f64) -> f64 {
+        match &self.measure {
+            Measure::Linear { factor, offset } => factor * value + offset,
+            Measure::Radius(reference) => reference.bilge_radius(value).min(reference.largest_bilge()),
+        }
+    }
+
     /// A value in units of the last decimal.
     fn steps(&self, value: f64) -> f64 {
-        (self.factor * value + self.offset) * 10f64.powi(i32::from(self.decimals))
+        self.stated(value) * 10f64.powi(i32::from(self.decimals))
     }
 
     fn value(&self, steps: f64) -> f64 {
-        (steps / 10f64.powi(i32::from(self.decimals)) - self.offset) / self.factor
+        let stated = steps / 10f64.powi(i32::from(self.decimals));
+        match &self.measure {
+            Measure::Linear { factor, offset } => (stated - offset) / factor,
+            Measure::Radius(reference) => reference.midship_coefficient(stated),
+        }
     }
 }

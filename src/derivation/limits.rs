@@ -2,27 +2,32 @@
 //! centreplane or B/2, without sections or waterlines that pass each other, and with the signs of curvature of the parent.
 //!
 //! Linear programs, one for each end. Their answers are evaluated: an end is the value of a hull, which is feasible as far as
-//! rounding goes. KM and wetted surface are not linear: from the hull that has the others, steps towards the answers of linear
-//! programs, each as long as it is best (Frank and Wolfe 1956), come near a local end; values beyond it are tried by the nearest hull. The limits of a daughter are those over
-//! three charts, her own and those of sections that are shifted as far as a search shifts them either way.
+//! rounding goes. Ratios of two linear functions (LCB, LCF, KB, C_P) take a few programs, each with the ratio that the one before
+//! came to (Dinkelbach 1967). KM and wetted surface are curved: from the hull that has the others, steps towards the answers of
+//! linear programs, each as long as it is best (Frank and Wolfe 1956), come near a local end; values beyond it are tried by the
+//! nearest hull. The limits of a daughter are those over three charts, her own and those of sections that are shifted as far as a
+//! search shifts them either way.
 
 use super::derive::{Job, OF_FOLD};
-use super::nearest::{Search, breadths, with_breadths};
-use super::pool::Kind;
+use super::nearest::{Search, breadths, solved, with_breadths};
 use super::quantity::{Quantity, Reference, equation, value_of};
 use super::request::{Origin, Target};
 use super::shift::{Ends, LEVEL_FOLD, level, shifted};
 use crate::hull::Hull;
 use crate::numeric::join;
+use crate::qp::Problem;
 
-/// Most rounds in which missed signs come into a linear program; after them the interval is that without signs.
-const ROUNDS: usize = 10;
+/// Most iterations of a linear program.
+const ITERATIONS: usize = 100;
 /// Most steps towards the end of what is not linear.
 const STEPS: usize = 12;
-/// Thirds of a step, by which its best length is found.
-const THIRDS: usize = 24;
+/// Most steps to its best length, and the part of the first slope that is level there.
+const ROOT_STEPS: usize = 8;
+const LEVEL_ENOUGH: f64 = 1e-3;
 /// Relative gain of a step below which it is the last.
 const LAST_GAIN: f64 = 1e-6;
+/// The same of the ratio of linear functions.
+const LAST_RATIO: f64 = 1e-8;
 /// First step beyond the end of what is not linear, in parts of it; most steps, and halvings of the last.
 const FIRST_BEYOND: f64 = 1e-3;
 const DOUBLINGS: usize = 6;
@@ -70,7 +75,13 @@ impl Job<'_> {
     /// What `quantity` can be with the `others`, on the chart of a start and on those of shifted sections; none where the others
     /// are infeasible on all.
     pub(super) fn limits(&self, start: &Hull, quantity: Quantity, others: &[Target]) -> Option<Interval> {
-        let of = |chart: &Hull| interval(self.scaled, chart, &self.reference, quantity, others, self.body);
+        let of = |chart: &Hull, keeps_signs: bool| {
+            let mut search = Search::new(self.scaled, chart, &self.reference, others, self.body);
+            if !keeps_signs {
+                search.without_signs();
+            }
+            interval(&mut search, quantity, others, &self.reference)
+        };
         let most = OF_FOLD * LEVEL_FOLD;
         let shifts: &[[f64; 2]] = match quantity {
             _ if self.body.is_some() => &[],
@@ -78,100 +89,144 @@ impl Job<'_> {
             Quantity::Lcb | Quantity::Lcf => &[[most, -most], [-most, most]],
             _ => &[],
         };
-        let moved = |amplitudes: &[f64; 2]| {
-            let ends = Ends::inside(self.scaled, self.midship());
-            of(&shifted(self.scaled, &ends, &|side, t| level(t, amplitudes[side])).ok()?)
-        };
-        let (own, others) = join(|| of(start), || shifts.iter().filter_map(moved).collect::<Vec<_>>());
-        let found: Vec<Interval> = own.into_iter().chain(others).collect();
+        let ends = Ends::inside(self.scaled, self.midship());
+        let moved = |amplitudes: &[f64; 2]| shifted(self.scaled, &ends, &|side, t| level(t, amplitudes[side])).ok();
+        let charts: Vec<Hull> = shifts.iter().filter_map(moved).collect();
         // A chart on which signs go is left out where others keep them.
-        let keeps = found.iter().any(|interval| interval.keeps_signs);
-        found.into_iter().filter(|interval| interval.keeps_signs || !keeps).reduce(Interval::with)
+        [true, false].into_iter().find_map(|keeps| {
+            let moved = || charts.iter().filter_map(|chart| of(chart, keeps)).collect::<Vec<_>>();
+            let (own, others) = join(|| of(start, keeps), moved);
+            own.into_iter().chain(others).reduce(Interval::with)
+        })
     }
 }
 
-/// The interval of `quantity` with the `others` given; none where they alone are infeasible. Where the signs of curvature of the
-/// parent are, it is that without them.
-fn interval(
-    parent: &Hull,
-    start: &Hull,
-    reference: &Reference,
-    quantity: Quantity,
-    others: &[Target],
-    body: Option<[f64; 2]>,
-) -> Option<Interval> {
-    let of = |keeps_signs: bool| {
-        let meets = |value: f64| {
-            let own = Target { quantity, value, origin: Origin::Given };
-            let targets = [others, &[own]].concat();
-            let mut search = prepared((parent, start), reference, (&targets, body), keeps_signs);
-            let found = search.run().ok().map(|nearest| value_of(quantity, &nearest.hull, reference));
-            found.is_some_and(|found| (found - value).abs() <= 1e-6 * value.abs())
-        };
-        let end = |way: f64| {
-            let found = extreme(prepared((parent, start), reference, (others, body), keeps_signs), quantity, way)?;
-            Some(if is_linear(quantity) { found } else { beyond(found, way, meets) })
-        };
-        let (low, high) = (end(1.0)?, end(-1.0)?);
-        Some(Interval { quantity, low: low.min(high), high: high.max(low), keeps_signs })
+/// The interval of `quantity` with the `others` given within the limits of a search; none where they alone are infeasible.
+fn interval(search: &mut Search<'_>, quantity: Quantity, others: &[Target], reference: &Reference) -> Option<Interval> {
+    let [low, high] = extremes(search, quantity)?;
+    let found = Interval { quantity, low: low.min(high), high: high.max(low), keeps_signs: search.has_signs() };
+    if Course::of(quantity, others) != Course::Curved {
+        return Some(found);
+    }
+    let mut meets = |value: f64| {
+        let own = Target { quantity, value, origin: Origin::Given };
+        let targets = [others, &[own]].concat();
+        let mut search = search.with_targets(&targets);
+        let found = search.run().ok().map(|nearest| value_of(quantity, &nearest.hull, reference));
+        found.is_some_and(|found| (found - value).abs() <= 1e-6 * value.abs())
     };
-    of(true).or_else(|| of(false))
+    Some(Interval { low: beyond(found.low, 1.0, &mut meets), high: beyond(found.high, -1.0, &mut meets), ..found })
 }
 
-/// A search for a hull with these targets, with the signs of curvature of the parent or without.
-fn prepared<'a>(
-    (parent, start): (&Hull, &'a Hull),
-    reference: &'a Reference,
-    (targets, body): (&'a [Target], Option<[f64; 2]>),
-    keeps_signs: bool,
-) -> Search<'a> {
-    let mut search = Search::new(parent, start, reference, targets, body);
-    if !keeps_signs {
-        search.without_signs();
-    }
-    search
-}
-
-/// The least value of `quantity`, or the greatest for a `way` of -1.
-fn extreme(mut search: Search<'_>, quantity: Quantity, way: f64) -> Option<f64> {
-    let (start, reference) = (search.start, search.reference);
-    let value = |y: &[f64]| Some(value_of(quantity, &with_breadths(start, y).ok()?, reference));
+/// The least and the greatest value of `quantity`, of one that is not linear near the hull that has the others.
+fn extremes(search: &mut Search<'_>, quantity: Quantity) -> Option<[f64; 2]> {
     // The hull that has the others.
-    let mut at = if is_linear(quantity) { None } else { search.run().ok().map(|nearest| breadths(&nearest.hull)) };
-    search.rounds = ROUNDS;
+    let course = Course::of(quantity, search.targets);
+    let at = if course == Course::Curved { breadths(&search.run().ok()?.hull) } else { search.base.clone() };
     // A linear program needs its limits from the beginning.
-    for (taken, candidate) in search.taken.iter_mut().zip(&search.candidates) {
-        *taken = candidate.kind != Kind::Sign;
-    }
-    let equations = search.equations(start);
-    let base = search.base.clone();
-    let towards = |search: &mut Search<'_>, y: &[f64]| {
-        let hull = with_breadths(start, y).ok()?;
-        let gradient = equation(quantity, value_of(quantity, &hull, reference), &hull, reference).gradient;
-        let towards: Vec<f64> = search.freedom.gradient(&gradient).iter().map(|g| way * search.unit * g).collect();
-        Some(search.solve(&equations, &base, Some(&towards)).ok()?.y)
+    search.take_all();
+    let equations = search.equations(search.start);
+    let n = search.freedom.points.len();
+    let problem = search.problem(&equations, &search.base, Some(&vec![0.0; n]));
+    let ends = [1.0, -1.0].map(|way| extreme(search, problem.clone(), (quantity, course), &at, way));
+    search.take_none();
+    let [low, high] = ends;
+    Some([low?, high?])
+}
+
+/// The least value of `quantity` from `at` on, or the greatest for a `way` of -1.
+fn extreme(
+    search: &Search<'_>,
+    mut problem: Problem,
+    (quantity, course): (Quantity, Course),
+    at: &[f64],
+    way: f64,
+) -> Option<f64> {
+    let (start, reference) = (search.start, search.reference);
+    let hull_of = |y: &[f64]| with_breadths(start, y).ok();
+    let value = |y: &[f64]| Some(way * value_of(quantity, &hull_of(y)?, reference));
+    let slopes = |y: &[f64]| {
+        let hull = hull_of(y)?;
+        Some(equation(quantity, value_of(quantity, &hull, reference), &hull, reference).gradient)
     };
-    let Some(mut y) = at.take() else { return value(&towards(&mut search, &base)?) };
+    let mut known = None;
+    let mut towards = |gradient: &[f64]| {
+        problem.linear = search.freedom.gradient(gradient).iter().map(|g| way * search.unit * g).collect();
+        let solution = solved(&problem, known.as_ref(), ITERATIONS).ok()?;
+        let y = search.moved(&solution.x);
+        known = solution.interior;
+        Some(y)
+    };
+    let mut gradient = slopes(at)?;
+    if course != Course::Curved {
+        let mut y = towards(&gradient)?;
+        let mut least = value(&y)?;
+        for _ in 0..if course == Course::Ratio { STEPS } else { 0 } {
+            gradient = slopes(&y)?;
+            let Some(next) = towards(&gradient) else { break };
+            let found = value(&next)?;
+            if least - found <= LAST_RATIO * least.abs() {
+                break;
+            }
+            (y, least) = (next, found);
+        }
+        return Some(way * least);
+    }
+    let (mut y, mut least) = (at.to_vec(), value(at)?);
     for _ in 0..STEPS {
-        let Some(vertex) = towards(&mut search, &y) else { break };
+        let Some(vertex) = towards(&gradient) else { break };
         let along = |t: f64| -> Vec<f64> { y.iter().zip(&vertex).map(|(a, b)| a + t * (b - a)).collect() };
-        let (before, best) = (value(&y)?, best_step(|t| value(&along(t)).map_or(f64::INFINITY, |value| way * value)));
-        let next = along(best);
-        let gain = way * (before - value(&next)?);
-        y = next;
-        if gain <= LAST_GAIN * before.abs() {
+        let slope = |t: f64| {
+            let y = along(t);
+            let gradient = slopes(&y)?;
+            Some(gradient.iter().zip(y.iter().zip(&vertex)).map(|(g, (a, b))| way * g * (b - a)).sum::<f64>())
+        };
+        let t = best_step(&slope);
+        let candidates = [t, 1.0].map(|t| (along(t), t));
+        let Some((next, found)) = candidates
+            .into_iter()
+            .filter_map(|(y, _)| value(&y).map(|value| (y, value)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+        else {
+            break;
+        };
+        let gain = least - found;
+        if gain <= 0.0 {
             break;
         }
+        (y, least) = (next, found);
+        if gain <= LAST_GAIN * least.abs() {
+            break;
+        }
+        gradient = slopes(&y)?;
     }
-    value(&y)
+    Some(way * least)
 }
 
-fn is_linear(quantity: Quantity) -> bool {
-    !matches!(quantity, Quantity::Km | Quantity::WettedSurface)
+/// How a quantity depends on half-breadths that have the other targets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Course {
+    Linear,
+    /// Of two linear functions.
+    Ratio,
+    Curved,
+}
+
+impl Course {
+    fn of(quantity: Quantity, others: &[Target]) -> Self {
+        let is_given = |wanted: Quantity| others.iter().any(|other| other.quantity == wanted);
+        match quantity {
+            Quantity::Km | Quantity::WettedSurface => Self::Curved,
+            Quantity::Lcb | Quantity::Kb if is_given(Quantity::Volume) => Self::Linear,
+            Quantity::Lcf if is_given(Quantity::WaterplaneCoefficient) => Self::Linear,
+            Quantity::Lcb | Quantity::Lcf | Quantity::Kb | Quantity::PrismaticCoefficient => Self::Ratio,
+            _ => Self::Linear,
+        }
+    }
 }
 
 /// How far below `end`, or above for a `way` of -1, values are met: by steps that double, then by halves.
-fn beyond(end: f64, way: f64, meets: impl Fn(f64) -> bool) -> f64 {
+fn beyond(end: f64, way: f64, mut meets: impl FnMut(f64) -> bool) -> f64 {
     let (mut met, mut step) = (end, FIRST_BEYOND * end.abs());
     let mut failed = None;
     for _ in 0..DOUBLINGS {
@@ -182,7 +237,8 @@ fn beyond(end: f64, way: f64, meets: impl Fn(f64) -> bool) -> f64 {
         }
         (met, step) = (next, 2.0 * step);
     }
-    let Some(mut failed) = failed else { return met };
+    // An end that nothing is met beyond is one.
+    let Some(mut failed) = failed.filter(|_| (met - end).abs() > 0.0) else { return met };
     for _ in 0..HALVINGS {
         let middle = 0.5 * (met + failed);
         if meets(middle) {
@@ -194,17 +250,26 @@ fn beyond(end: f64, way: f64, meets: impl Fn(f64) -> bool) -> f64 {
     met
 }
 
-/// Where from 0 to 1 a function is least, to a thousandth: by thirds, or an end.
-fn best_step(of: impl Fn(f64) -> f64) -> f64 {
+/// Where from 0 to 1 a function with this slope is least: the root of the slope by false position, or 1.
+fn best_step(slope: impl Fn(f64) -> Option<f64>) -> f64 {
+    let Some((mut at_low, mut at_high)) = slope(0.0).zip(slope(1.0)) else { return 1.0 };
+    if at_high <= 0.0 || at_low >= 0.0 {
+        return 1.0;
+    }
     let [mut low, mut high] = [0.0, 1.0];
-    for _ in 0..THIRDS {
-        let third = (high - low) / 3.0;
-        if of(low + third) <= of(high - third) {
-            high -= third;
+    let (first, mut t) = (at_low, 1.0);
+    for _ in 0..ROOT_STEPS {
+        t = low - at_low * (high - low) / (at_high - at_low);
+        let Some(found) = slope(t) else { break };
+        if found.abs() <= LEVEL_ENOUGH * first.abs() {
+            break;
+        }
+        // Illinois: the end that stays counts half.
+        if found < 0.0 {
+            (low, at_low, at_high) = (t, found, 0.5 * at_high);
         } else {
-            low += third;
+            (high, at_high, at_low) = (t, found, 0.5 * at_low);
         }
     }
-    let middle = 0.5 * (low + high);
-    [0.0, middle, 1.0].into_iter().min_by(|a, b| of(*a).total_cmp(&of(*b))).unwrap_or(middle)
+    t
 }

@@ -15,6 +15,7 @@ mod infeasible;
 mod inflections;
 mod lackenby;
 mod limits;
+mod moved;
 mod nearest;
 mod parallel;
 mod pool;

@@ -19,7 +19,7 @@ use super::pool::{AT_LIMIT, Candidate, Kind, candidates};
 use super::quantity::{Equation, Reference, equation};
 use super::request::Target;
 use crate::hull::{Hull, HullError};
-use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
+use crate::qp::{Interior, Problem, ProblemError, Settings, Solution, SparseRows, Status};
 use crate::resistance::WaveTerm;
 use crate::spline::BsplineSurface;
 
@@ -33,6 +33,10 @@ const TANGENTS: usize = 12;
 const ROUNDS: usize = 40;
 /// Most rows of a round for each row that is in the program.
 const LEAST_ADDED: usize = 120;
+/// Most iterations of a program from one start: what has a solution takes half as many.
+const ITERATIONS: usize = 50;
+/// Largest violation of rows that a program without a proof may leave.
+const MOST_VIOLATED: f64 = 1e-6;
 /// Optimum over (B/2)^2 that a duality gap is divided by at least.
 const LEAST_OPTIMUM: f64 = 1e-9;
 /// A multiplier beside the square of B/2 from which a limit binds.
@@ -81,6 +85,21 @@ pub(super) struct Nearest {
     pub(super) programs: usize,
 }
 
+/// The solution of a program, from a point of a similar one where that is known.
+///
+/// # Errors
+/// [`Failed::Infeasible`] where none was found: no proof of it is looked for, which costs more than the search itself.
+pub(super) fn solved(problem: &Problem, known: Option<&Interior>, iterations: usize) -> Result<Solution, Failed> {
+    let settings = Settings { tolerance: 1e-11, iterations, proof: false };
+    let solution = problem.solve_from(&settings, known).map_err(Failed::Program)?;
+    let is_met = || problem.certificate(&solution.x, &solution.multipliers, 0.0).max_violation <= MOST_VIOLATED;
+    match solution.status {
+        Status::Optimal => Ok(solution),
+        Status::Limit if is_met() => Ok(solution),
+        _ => Err(Failed::Infeasible),
+    }
+}
+
 /// The hull with these half-breadths on its chart.
 pub(super) fn with_breadths(hull: &Hull, y: &[f64]) -> Result<Hull, HullError> {
     let surface = hull.surface();
@@ -96,6 +115,7 @@ pub(super) fn breadths(hull: &Hull) -> Vec<f64> {
 
 /// What is free of the net: not keel, stem, stern and deck, not the centreplane, not the flat of side. In a parallel body all is
 /// free but stem and stern, and with it the edge of the flat of bottom.
+#[derive(Debug, Clone)]
 pub(super) struct Freedom {
     /// The number of each point among the free ones.
     pub(super) places: Vec<Option<usize>>,
@@ -134,6 +154,7 @@ impl Freedom {
 }
 
 /// A program over the free points, to which rows are added.
+#[derive(Clone)]
 pub(super) struct Search<'a> {
     pub(super) start: &'a Hull,
     pub(super) reference: &'a Reference,
@@ -141,7 +162,9 @@ pub(super) struct Search<'a> {
     pub(super) freedom: Freedom,
     pub(super) candidates: Vec<Candidate>,
     /// Which candidates are in the program.
-    pub(super) taken: Vec<bool>,
+    taken: Vec<bool>,
+    /// The same in the order in which they came into it.
+    order: Vec<usize>,
     pub(super) base: Vec<f64>,
     /// Unit of the changes \[m\].
     pub(super) unit: f64,
@@ -150,11 +173,13 @@ pub(super) struct Search<'a> {
     band: Option<Band>,
     /// Whether it is stated.
     states_band: bool,
+    /// Whether the signs of curvature of the parent are among the candidates.
+    keeps_signs: bool,
     /// The wave resistance with its weight [m^2].
     waves: Option<(&'a WaveTerm, f64)>,
     pub(super) programs: usize,
-    /// Most rounds in which missed rows come into a program.
-    pub(super) rounds: usize,
+    /// An early iterate of the last program.
+    known: Option<Interior>,
 }
 
 /// An answer to a program.
@@ -187,6 +212,7 @@ impl<'a> Search<'a> {
             reference,
             targets,
             taken: vec![false; candidates.len()],
+            order: Vec::new(),
             candidates,
             freedom,
             base: breadths(start),
@@ -194,10 +220,22 @@ impl<'a> Search<'a> {
             form,
             band,
             states_band,
+            keeps_signs: true,
             waves: None,
             programs: 0,
-            rounds: ROUNDS,
+            known: None,
         }
+    }
+
+    /// The same for other targets, with no row in the program.
+    pub(super) fn with_targets<'b>(&self, targets: &'b [Target]) -> Search<'b>
+    where
+        'a: 'b,
+    {
+        let mut search: Search<'b> = self.clone();
+        search.targets = targets;
+        search.take_none();
+        search
     }
 
     /// The equations of the targets, then those of the parallel body.
@@ -217,7 +255,7 @@ impl<'a> Search<'a> {
     }
 
     /// The program: equations hold at `at` by their tangents there; `towards` replaces the bending by a linear objective.
-    fn problem(&self, equations: &[Equation], at: &[f64], towards: Option<&[f64]>) -> Problem {
+    pub(super) fn problem(&self, equations: &[Equation], at: &[f64], towards: Option<&[f64]>) -> Problem {
         let n = self.freedom.points.len();
         let (mut rows, mut lower, mut upper) = (SparseRows::new(n), Vec::new(), Vec::new());
         for equation in equations {
@@ -250,7 +288,7 @@ impl<'a> Search<'a> {
 
     /// The limits that are in the program.
     fn in_program(&self) -> impl Iterator<Item = &Candidate> {
-        self.candidates.iter().zip(&self.taken).filter(|(_, taken)| **taken).map(|(candidate, _)| candidate)
+        self.order.iter().map(|&k| &self.candidates[k])
     }
 
     /// The row of a limit over the free points, and its size.
@@ -287,46 +325,59 @@ impl<'a> Search<'a> {
         self.taken.resize(self.candidates.len(), false);
     }
 
-    /// Solves, and takes missed rows in until none is.
-    pub(super) fn solve(
-        &mut self,
-        equations: &[Equation],
-        at: &[f64],
-        towards: Option<&[f64]>,
-    ) -> Result<Answer, Failed> {
-        let settings = Settings { tolerance: 1e-11, ..Settings::default() };
-        for _ in 0..self.rounds {
-            let problem = self.problem(equations, at, towards);
-            let solution = problem.solve(&settings).map_err(Failed::Program)?;
+    /// Solves, and takes missed rows in until none is. A round starts from an early iterate of the one before.
+    fn solve(&mut self, equations: &[Equation], at: &[f64]) -> Result<Answer, Failed> {
+        for _ in 0..ROUNDS {
+            let problem = self.problem(equations, at, None);
+            let known = self.known.take().filter(|known| known.rows.len() == problem.lower.len());
+            let solution = solved(&problem, known.as_ref(), ITERATIONS)?;
             self.programs += 1;
-            if matches!(solution.status, Status::Infeasible | Status::Unbounded) {
-                return Err(Failed::Infeasible);
-            }
-            let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
-            if solution.status == Status::Limit && certificate.max_violation > 1e-6 {
-                return Err(Failed::Infeasible);
-            }
-            let mut y = self.base.clone();
-            self.freedom.points.iter().zip(&solution.x).for_each(|(&k, c)| y[k] += self.unit * c);
+            let y = self.moved(&solution.x);
             let limits: Vec<(Kind, f64)> =
                 self.in_program().map(|candidate| (candidate.kind, self.limit(candidate).1)).collect();
-            if !self.take_missed(&y) {
+            let added = self.take_missed(&y);
+            self.known = solution.interior;
+            if added == 0 {
+                let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
                 let gap = (certificate.primal - certificate.dual).abs() / certificate.primal.abs().max(LEAST_OPTIMUM);
                 return Ok(Answer { y, multipliers: solution.multipliers, gap, limits });
             }
+            self.known.iter_mut().for_each(|known| known.rows.extend(std::iter::repeat_n(None, added)));
         }
         Err(Failed::Infeasible)
     }
 
-    /// Takes the most missed rows into the program; false where none is missed.
-    fn take_missed(&mut self, y: &[f64]) -> bool {
+    /// Half-breadths after changes of the free points, in units.
+    pub(super) fn moved(&self, changes: &[f64]) -> Vec<f64> {
+        let mut y = self.base.clone();
+        self.freedom.points.iter().zip(changes).for_each(|(&k, c)| y[k] += self.unit * c);
+        y
+    }
+
+    /// Takes every row into the program.
+    pub(super) fn take_all(&mut self) {
+        self.known = None;
+        self.order.extend((0..self.candidates.len()).filter(|k| !self.taken[*k]));
+        self.taken.fill(true);
+    }
+
+    /// Takes no row into the program.
+    pub(super) fn take_none(&mut self) {
+        self.known = None;
+        self.order.clear();
+        self.taken = vec![false; self.candidates.len()];
+    }
+
+    /// Takes the most missed rows into the program; how many.
+    fn take_missed(&mut self, y: &[f64]) -> usize {
         let miss = |candidate: &Candidate| (candidate.lower - candidate.value(y)) / candidate.slack;
         let open = self.candidates.iter().enumerate().filter(|(k, c)| !self.taken[*k] && c.is_missed(y));
         let mut missed: Vec<(f64, usize)> = open.map(|(k, candidate)| (miss(candidate), k)).collect();
         missed.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         missed.truncate(LEAST_ADDED);
         missed.iter().for_each(|(_, k)| self.taken[*k] = true);
-        !missed.is_empty()
+        self.order.extend(missed.iter().map(|(_, k)| *k));
+        missed.len()
     }
 
     /// Corrects what the equations are off by with the least change of points that stand off the centreplane.
@@ -371,7 +422,7 @@ impl<'a> Search<'a> {
             if error <= CORRECTED && (last.is_some() || (keeps && self.waves.is_none())) {
                 break;
             }
-            let answer = self.solve(&equations, &at, None)?;
+            let answer = self.solve(&equations, &at)?;
             at.clone_from(&answer.y);
             hull = with_breadths(self.start, &at).map_err(Failed::Hull)?;
             last = Some(answer);
@@ -421,12 +472,19 @@ impl<'a> Search<'a> {
 
     /// Leaves the parallel body of the start out; false where it has none, or it is stated.
     pub(super) fn without_own_body(&mut self) -> bool {
+        self.known = None;
         !self.states_band && self.band.take().is_some()
+    }
+
+    /// Whether signs of curvature are among the limits.
+    pub(super) fn has_signs(&self) -> bool {
+        self.keeps_signs
     }
 
     /// Leaves the signs of curvature out.
     pub(super) fn without_signs(&mut self) {
         self.candidates.retain(|candidate| candidate.kind != Kind::Sign);
-        self.taken = vec![false; self.candidates.len()];
+        self.keeps_signs = false;
+        self.take_none();
     }
 }

@@ -11,6 +11,8 @@
 //! All but the last two, and the place x_X of the largest section, are linear in the half-breadths on a fixed chart. Each is
 //! divided by its size, so that residuals are relative: to the value, and to L_PP for LCB and LCF.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::ending::{WaterlineEnd, slope};
 use crate::hull::{Functional, Hull, SectionalAreaCurve, transverse_inertia, transverse_inertia_gradient};
 use crate::hydrostatics::{CoefficientLength, Conventions, PrismaticSection, wetted_surface, wetted_surface_gradient};
@@ -162,6 +164,21 @@ impl Reference {
     #[must_use]
     pub fn volume(&self) -> f64 {
         self.length * self.breadth * self.draught
+    }
+
+    /// C_M of a section with level bottom, plumb sides and bilges of this radius \[m\].
+    pub(super) fn midship_coefficient(&self, radius: f64) -> f64 {
+        1.0 - (2.0 - FRAC_PI_2) * radius * radius / (self.breadth * self.draught)
+    }
+
+    /// The radius \[m\] of the bilges of such a section with this C_M.
+    pub(super) fn bilge_radius(&self, midship: f64) -> f64 {
+        ((1.0 - midship).max(0.0) * self.breadth * self.draught / (2.0 - FRAC_PI_2)).sqrt()
+    }
+
+    /// The largest bilge radius that fits into the section \[m\].
+    pub(super) fn largest_bilge(&self) -> f64 {
+        self.draught.min(0.5 * self.breadth)
     }
 
     /// Position of the section of C_P \[m\].

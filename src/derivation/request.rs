@@ -1,7 +1,5 @@
 //! What is asked of a daughter, and which targets follow from it.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::quantity::{Quantity, Reference, value_of};
 use super::refusal::Refusal;
 use crate::hull::Hull;
@@ -97,6 +95,12 @@ pub struct Request {
     /// r^2 / (B T).
     #[doc(hidden)]
     pub bilge_radius: Option<f64>,
+    /// Heights \[m\] of lines of the scaled parent, with those that they come to.
+    #[doc(hidden)]
+    pub moved_heights: Vec<[f64; 2]>,
+    /// The same of positions forward of AP.
+    #[doc(hidden)]
+    pub moved_positions: Vec<[f64; 2]>,
     /// The other targets.
     pub targets: Vec<(Quantity, f64)>,
     /// Quantities that are not kept although nobody names them.
@@ -146,10 +150,7 @@ impl Request {
                 part.or(self.centres[0]).map(|[share, shift]| share * reference.between + shift)
             }
             Quantity::Lcf => self.centres[1].map(|[share, shift]| share * reference.between + shift),
-            Quantity::MidshipCoefficient => self.bilge_radius.map(|radius| {
-                let corners = (2.0 - FRAC_PI_2) * radius * radius;
-                1.0 - corners / (reference.breadth * reference.draught)
-            }),
+            Quantity::MidshipCoefficient => self.bilge_radius.map(|radius| reference.midship_coefficient(radius)),
             _ => None,
         };
         own.or(other)
@@ -281,7 +282,7 @@ pub(super) fn undefined(target: &Target, scaled: &Hull, reference: &Reference) -
 
 /// A bilge that does not fit into the midship section.
 fn no_bilge(radius: f64, reference: &Reference) -> Option<Refusal> {
-    let most = reference.draught.min(0.5 * reference.breadth);
+    let most = reference.largest_bilge();
     (radius > most).then(|| {
         let message = format!("bilge radius {radius:.3} m is more than the lesser of T and B/2, {most:.3} m");
         Refusal::new("E421", vec!["bilge-radius"], message, format!("Give at most {most:.3} m"))

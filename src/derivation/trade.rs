@@ -1,7 +1,9 @@
 //! The wave resistance against bending: one program for each weight, and the knee of seven.
 
+use std::cell::RefCell;
+
 use super::derive::{Derived, Job};
-use super::inflections::{counted_planes, inflections};
+use super::inflections::inflections;
 use super::nearest::{Failed, breadths};
 use super::refusal::Refusal;
 use crate::hull::Hull;
@@ -43,19 +45,26 @@ impl Job<'_> {
         let draught = self.reference.draught;
         let resistances = |hull: &Hull| request.resistances(hull, draught).map_err(|error| vec![Refusal::hull(&error)]);
         let before = resistances(self.scaled)?;
-        let free = self.search(start).freedom.points;
+        let mut search = self.search(start);
+        let free = search.freedom.points.clone();
         let term = WaveTerm::new(start, &free, request, draught, &before).map_err(|why| vec![no_term(&why)])?;
-        let planes = counted_planes(self.scaled, self.conventions.stations);
+        let planes = &self.counted.planes;
         let base = breadths(start);
         let moves = |hull: &Hull| -> Vec<f64> {
             let after = breadths(hull);
             free.iter().map(|&k| after[k] - base[k]).collect()
         };
+        request.within.into_iter().for_each(|most| search.within(most));
+        // Rows that one weight needs are those of the next as well.
+        let kept = RefCell::new(search);
         let solved = |weight: f64| {
-            let mut search = self.search(start);
+            let mut search = kept.borrow().clone();
+            search.programs = 0;
             search.with_waves(&term, weight);
-            request.within.into_iter().for_each(|most| search.within(most));
-            let derived = self.nearest_to(search, amplitudes)?;
+            let derived = self.nearest_to(&mut search, amplitudes)?;
+            if derived.keeps_signs && derived.keeps_body {
+                kept.replace(search);
+            }
             let change = moves(&derived.hull);
             let square = change.iter().map(|c| c * c).sum::<f64>() / change.len().max(1) as f64;
             let trade = WaveTrade {
@@ -63,7 +72,7 @@ impl Job<'_> {
                 ratio: term.after(&change),
                 energy: derived.energy,
                 moves: square.sqrt(),
-                inflections: inflections(&derived.hull, &planes),
+                inflections: inflections(&derived.hull, planes),
                 keeps_signs: derived.keeps_signs,
             };
             Ok::<_, Failed>((derived, trade))

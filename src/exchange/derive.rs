@@ -53,6 +53,8 @@ pub struct DeriveReport<'a> {
     pub inflections: [usize; 2],
     /// Ends of the parallel middle body of the scaled parent and of the daughter \[m\].
     pub middle_bodies: [Option<[f64; 2]>; 2],
+    /// Heights and positions \[m\] that lines of the scaled parent come from and to.
+    pub moved_lines: [&'a [[f64; 2]]; 2],
     /// How far the daughter is from the scaled parent.
     pub moved: Option<SurfaceDistance>,
     /// The wave resistance, where it is made small.
@@ -94,6 +96,7 @@ pub fn derive_json(report: &DeriveReport<'_>) -> Value {
         "parallel_body": report.parallel_body,
         "inflections": { "scaled_parent": report.inflections[0], "daughter": report.inflections[1] },
         "moved_from_scaled_parent": moved,
+        "moved_lines": { "heights": report.moved_lines[0], "positions": report.moved_lines[1] },
         "parallel_middle_body": {
             "scaled_parent": report.middle_bodies[0].map(|ends| ends.map(|end| json_number(Some(end)))),
             "daughter": report.middle_bodies[1].map(|ends| ends.map(|end| json_number(Some(end)))),

@@ -6,7 +6,7 @@
 
 use super::form::{Hull, HullError, solve_increasing};
 use super::section::curve_sign_changes;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE};
 
 /// Places in each direction of a cell of the knots at which J is looked at.
 const PLACES: usize = 5;
@@ -75,13 +75,36 @@ pub(super) fn unfolded(surface: &BsplineSurface<3>) -> Result<(), HullError> {
         let inside = |k: usize| (k as f64 + 0.5) / PLACES as f64;
         breakpoints.windows(2).flat_map(|w| (0..PLACES).map(|k| w[0] + (w[1] - w[0]) * inside(k))).collect()
     };
-    let across = places(surface.v().breakpoints());
-    for u in places(surface.u().breakpoints()) {
-        for &v in &across {
-            let at = surface.tangents(u, v);
-            let jacobian = at.du[0] * at.dv[2] - at.dv[0] * at.du[2];
+    let (along, up, columns) = (surface.u(), surface.v(), surface.shape()[1]);
+    // Basis functions up are the same on every line u = constant, and each such line is summed once.
+    let of_v = |v: f64| {
+        let span = up.find_span(v);
+        (v, span - up.degree(), up.basis_derivatives::<2>(span, v))
+    };
+    let across: Vec<(f64, usize, [[f64; MAX_DEGREE + 1]; 2])> =
+        places(up.breakpoints()).into_iter().map(of_v).collect();
+    let mut line = vec![[0.0; 4]; columns];
+    for u in places(along.breakpoints()) {
+        let span = along.find_span(u);
+        let [values, slopes] = along.basis_derivatives::<2>(span, u);
+        line.fill([0.0; 4]);
+        for (i, row) in (span - along.degree()..=span).enumerate() {
+            for (sum, point) in line.iter_mut().zip(&surface.points()[row * columns..]) {
+                let terms = [values[i] * point[0], values[i] * point[2], slopes[i] * point[0], slopes[i] * point[2]];
+                sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            }
+        }
+        for (v, first, [values, slopes]) in &across {
+            // x_u, z_u, x_v, z_v.
+            let mut at = [0.0; 4];
+            for (column, (value, slope)) in line[*first..=first + up.degree()].iter().zip(values.iter().zip(slopes)) {
+                let terms = [value * column[2], value * column[3], slope * column[0], slope * column[1]];
+                at.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            }
+            let jacobian = at[0] * at[3] - at[2] * at[1];
             if jacobian < -ROUNDING * mean {
-                return Err(HullError::Folded { u, v, x: at.point[0], z: at.point[2], jacobian });
+                let [x, _, z] = surface.eval(u, *v);
+                return Err(HullError::Folded { u, v: *v, x, z, jacobian });
             }
         }
     }

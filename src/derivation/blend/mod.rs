@@ -6,6 +6,7 @@
 //! them, and the targets are met all the same.
 
 mod chart;
+mod model;
 mod weights;
 
 use super::affine::scaled;
@@ -16,6 +17,7 @@ use super::refusal::Refusal;
 use super::request::{Dimensions, Request, Target, impossible, undefined};
 use crate::hull::Hull;
 use crate::hydrostatics::Conventions;
+use model::Model;
 use weights::{Blending, Failed, Mix};
 
 /// A dimension that may change for the targets; the depth stays.
@@ -126,8 +128,11 @@ pub fn blend(
     let parents = common(hulls, &request.dimensions)?;
     let draught = parents[0].particulars().draught.unwrap_or_default();
     let one = chart::on_one_chart(&parents, draught).map_err(|refusal| vec![refusal])?;
-    let blending = Blending { hulls: &one.hulls, request: &wanted, free: &request.free, conventions, quantities };
-    blending.possible(&parents)?;
+    let (all, free) = (quantities.clone(), &request.free);
+    let without = Blending { hulls: &one.hulls, request: &wanted, free, conventions, quantities, model: None };
+    without.possible(&parents)?;
+    let model = if all.is_empty() { None } else { Model::new(&without, &all).ok().flatten() };
+    let blending = Blending { model: model.as_ref(), ..without };
     let mix = match &request.weights {
         Some(weights) => Ok(Mix { weights: weights.clone(), changes: Vec::new() }),
         None => blending.solve(),

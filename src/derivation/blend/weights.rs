@@ -7,7 +7,8 @@
 //!
 //! by successive quadratic programs: the residuals r are relative, their derivatives are differences along the ways from the
 //! blend to each hull. Where the profiles are the same, volume, moments and areas are linear in the weights, and one step
-//! is enough. A last correction of least size over the weights above zero leaves residuals of rounding.
+//! is enough. A last correction of least size over the weights above zero leaves residuals of rounding. Searches go over
+//! polynomials of the weights ([`Model`]); the last correction and the ends of intervals are integrated.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -16,6 +17,7 @@ use super::super::limits::Interval;
 use super::super::quantity::{Quantity, Reference, value_of};
 use super::super::request::{Dimensions, Request, Target};
 use super::Dimension;
+use super::model::Model;
 use crate::hull::{Hull, HullError};
 use crate::hydrostatics::Conventions;
 use crate::qp::{Problem, Settings, SparseRows, Status};
@@ -35,6 +37,10 @@ pub(super) const MET: f64 = 1e-10;
 const NO_WEIGHT: f64 = 1e-12;
 /// Largest logarithm of the change of a free dimension: a factor of 1.5.
 const MOST_CHANGE: f64 = 0.405_465_108_108_164_4;
+/// Relative residual of the others at which an end of an interval counts.
+const AT_END: f64 = 1e-7;
+/// Most corrections of a mix.
+const CORRECTIONS: usize = 10;
 /// Most linear programs for the end of an interval.
 const PROGRAMS_OF_END: usize = 12;
 
@@ -52,6 +58,8 @@ pub(super) struct Blending<'a> {
     pub(super) free: &'a [Dimension],
     pub(super) conventions: &'a Conventions,
     pub(super) quantities: Vec<Quantity>,
+    /// The values over weights and dimensions by polynomials, where there are some.
+    pub(super) model: Option<&'a Model>,
 }
 
 /// Why there are no weights.
@@ -127,17 +135,23 @@ impl Blending<'_> {
         Some((reference, targets.collect::<Option<Vec<_>>>()?))
     }
 
-    /// Relative residuals of the targets.
-    pub(super) fn residuals(&self, hull: &Hull) -> Result<Vec<f64>, Failed> {
+    /// Relative residuals of the targets of a hull, and the value of another quantity as it is stated.
+    fn integrated(&self, hull: &Hull, also: Option<Quantity>) -> Result<Reached, Failed> {
         let Some((reference, targets)) = self.targets(hull) else { return Err(Failed::Infeasible) };
-        let residual = |target: &Target| {
-            let value = value_of(target.quantity, hull, &reference);
-            match target.quantity {
-                Quantity::Lcb | Quantity::Lcf => (value - target.value) / reference.between,
-                _ => value / target.value - 1.0,
-            }
+        let values = targets.iter().map(|target| value_of(target.quantity, hull, &reference));
+        let value = also.map(|quantity| self.measured(quantity, value_of(quantity, hull, &reference), &reference));
+        Ok(Reached { residuals: residuals(&reference, &targets, values), value })
+    }
+
+    /// The same of a mix; by polynomials where there are some and it need not be `exact`.
+    fn reached(&self, mix: &Mix, also: Option<Quantity>, exact: bool) -> Result<Reached, Failed> {
+        let Some(model) = self.model.filter(|_| !exact) else { return self.integrated(&self.hull(mix)?, also) };
+        let Some((reference, values, targets)) = model.reached(self, mix, &self.quantities) else {
+            return Err(Failed::Infeasible);
         };
-        Ok(targets.iter().map(residual).collect())
+        let of_model = |quantity: Quantity| Some(model.reached(self, mix, &[quantity])?.1[0]);
+        let value = also.and_then(of_model).zip(also).map(|(value, of)| self.measured(of, value, &reference));
+        Ok(Reached { residuals: residuals(&reference, &targets, values.into_iter()), value })
     }
 
     /// A mix so far along one of the ways: towards a hull, or a change of a free dimension.
@@ -153,19 +167,21 @@ impl Blending<'_> {
         moved
     }
 
-    /// Residuals at a mix and their derivatives by every way, one row a target.
-    fn tangents(&self, mix: &Mix) -> Result<(Vec<f64>, DMatrix<f64>), Failed> {
+    /// What a mix comes to, with the derivatives of residuals by every way, one row a target, and those of the value.
+    fn tangents(&self, mix: &Mix, also: Option<Quantity>) -> Result<Tangents, Failed> {
         let ways = self.hulls.len() + self.free.len();
-        let at = self.residuals(&self.hull(mix)?)?;
-        let mut slopes = DMatrix::zeros(at.len(), ways);
+        let at = self.reached(mix, also, false)?;
+        let mut slopes = DMatrix::zeros(at.residuals.len(), ways);
+        let mut of_value = vec![0.0; ways];
         for way in 0..ways {
-            let [back, ahead] = [-STEP, STEP].map(|step| self.hull(&self.along(mix, way, step)));
-            let [back, ahead] = [self.residuals(&back?)?, self.residuals(&ahead?)?];
-            for k in 0..at.len() {
-                slopes[(k, way)] = (ahead[k] - back[k]) / (2.0 * STEP);
+            let [back, ahead] = [-STEP, STEP].map(|step| self.reached(&self.along(mix, way, step), also, false));
+            let (back, ahead) = (back?, ahead?);
+            for k in 0..at.residuals.len() {
+                slopes[(k, way)] = (ahead.residuals[k] - back.residuals[k]) / (2.0 * STEP);
             }
+            of_value[way] = back.value.zip(ahead.value).map_or(0.0, |(back, ahead)| (ahead - back) / (2.0 * STEP));
         }
-        Ok((at, slopes))
+        Ok(Tangents { at, slopes, of_value })
     }
 
     /// The program of a step: to the nearest mix, or in the direction of `towards`.
@@ -216,33 +232,38 @@ impl Blending<'_> {
 
     /// The mix nearest to equal weights that meets the targets.
     pub(super) fn solve(&self) -> Result<Mix, Failed> {
+        let (mix, left) = self.corrected(self.found()?, true)?;
+        if left > MET { Err(Failed::Astray(left)) } else { Ok(mix) }
+    }
+
+    /// The same before the last correction.
+    fn found(&self) -> Result<Mix, Failed> {
         let mut mix = self.even();
         let mut last = f64::INFINITY;
+        let left = |mix: &Mix| Ok::<_, Failed>(size(&self.reached(mix, None, false)?.residuals));
         for _ in 0..STEPS {
-            let (at, slopes) = self.tangents(&mix)?;
+            let Tangents { at, slopes, .. } = self.tangents(&mix, None)?;
             // Tangents may leave no way to the targets that the blends themselves have: a part of it then.
-            let part = |part: f64| at.iter().map(|residual| part * residual).collect::<Vec<_>>();
+            let part = |part: f64| at.residuals.iter().map(|residual| part * residual).collect::<Vec<_>>();
             let steps = PARTS.iter().map(|way| self.step(&mix, &part(*way), &slopes, None));
             let next = steps.into_iter().find(Result::is_ok).unwrap_or(Err(Failed::Infeasible))?;
             let moved = next.weights.iter().zip(&mix.weights).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             mix = next;
             last = moved;
-            if moved < 0.1 * NEAR && size(&self.residuals(&self.hull(&mix)?)?) < NEAR {
+            if moved < 0.1 * NEAR && left(&mix)? < NEAR {
                 break;
             }
         }
-        let left = size(&self.residuals(&self.hull(&mix)?)?);
-        if last > 1e-3 || left > 1e-4 {
-            return Err(Failed::Infeasible);
-        }
-        self.corrected(mix)
+        if last > 1e-3 || left(&mix)? > 1e-4 { Err(Failed::Infeasible) } else { Ok(mix) }
     }
 
-    /// Corrections of least size over the weights that are above zero and the free dimensions.
-    fn corrected(&self, mut mix: Mix) -> Result<Mix, Failed> {
+    /// Corrections of least size over the weights that are above zero and the free dimensions; the residual that is left, which is
+    /// integrated where it is to be `exact`.
+    fn corrected(&self, mut mix: Mix, exact: bool) -> Result<(Mix, f64), Failed> {
         let mut best = (mix.clone(), f64::INFINITY);
-        for _ in 0..6 {
-            let (at, slopes) = self.tangents(&mix)?;
+        for _ in 0..CORRECTIONS {
+            let Tangents { at, slopes, .. } = self.tangents(&mix, None)?;
+            let at = if exact && self.model.is_some() { self.reached(&mix, None, true)? } else { at }.residuals;
             let left = size(&at);
             if left < best.1 {
                 best = (mix.clone(), left);
@@ -269,7 +290,7 @@ impl Blending<'_> {
             let total: f64 = mix.weights.iter().sum();
             mix.weights.iter_mut().for_each(|w| *w /= total);
         }
-        if best.1 > MET { Err(Failed::Astray(best.1)) } else { Ok(best.0) }
+        Ok(best)
     }
 
     /// A value as it is stated: volumes as C_B, and centres in parts of L_PP, where the request states them so.
@@ -299,37 +320,65 @@ impl Blending<'_> {
 
     /// The least value of a quantity, or the greatest for a `way` of -1, by successive linear programs.
     fn extreme(&self, quantity: Quantity, way: f64) -> Option<f64> {
-        let value = |mix: &Mix| {
-            let hull = self.hull(mix).ok()?;
-            let reference = Reference::of(&hull, self.conventions)?;
-            Some(self.measured(quantity, value_of(quantity, &hull, &reference), &reference))
-        };
-        let mut mix = if self.quantities.is_empty() { self.even() } else { self.solve().ok()? };
-        let mut best = value(&mix)?;
+        let value = |mix: &Mix, exact: bool| self.reached(mix, Some(quantity), exact).ok()?.value;
+        let has_others = !self.quantities.is_empty();
+        let mut mix = self.even();
+        if has_others {
+            mix = self.corrected(self.found().ok()?, false).ok()?.0;
+        }
+        let mut best = value(&mix, false)?;
         for _ in 0..PROGRAMS_OF_END {
-            let (at, slopes) = self.tangents(&mix).ok()?;
-            let ways = self.hulls.len() + self.free.len();
-            let slope = |i: usize| {
-                let [back, ahead] = [-STEP, STEP].map(|step| value(&self.along(&mix, i, step)));
-                Some(way * (ahead? - back?) / (2.0 * STEP))
-            };
-            let towards: Vec<f64> = (0..ways).map(slope).collect::<Option<_>>()?;
-            let size = towards.iter().map(|s| s.abs()).fold(1e-300, f64::max);
-            let towards: Vec<f64> = towards.iter().map(|s| s / size).collect();
-            let Ok(mut next) = self.step(&mix, &at, &slopes, Some(&towards)) else { break };
-            if !self.quantities.is_empty() {
+            let Tangents { at, slopes, of_value } = self.tangents(&mix, Some(quantity)).ok()?;
+            let size = of_value.iter().map(|s| s.abs()).fold(1e-300, f64::max);
+            let towards: Vec<f64> = of_value.iter().map(|s| way * s / size).collect();
+            let Ok(mut next) = self.step(&mix, &at.residuals, &slopes, Some(&towards)) else { break };
+            if has_others {
                 // The program meets the others by their tangents alone.
-                let Ok(corrected) = self.corrected(next) else { break };
+                let Ok((corrected, left)) = self.corrected(next, false) else { break };
+                if left > AT_END {
+                    break;
+                }
                 next = corrected;
             }
-            let found = value(&next)?;
+            let Some(found) = value(&next, false) else { break };
             if way * (best - found) <= 1e-12 * best.abs() {
                 break;
             }
             (mix, best) = (next, found);
         }
-        Some(best)
+        if has_others {
+            let (corrected, left) = self.corrected(mix, true).ok()?;
+            if left > AT_END {
+                return None;
+            }
+            mix = corrected;
+        }
+        value(&mix, true)
     }
+}
+
+/// What a mix comes to.
+struct Reached {
+    /// Relative residuals of the targets.
+    residuals: Vec<f64>,
+    /// The value of another quantity, as it is stated.
+    value: Option<f64>,
+}
+
+/// The same with derivatives by every way.
+struct Tangents {
+    at: Reached,
+    slopes: DMatrix<f64>,
+    of_value: Vec<f64>,
+}
+
+/// Relative residuals of targets, of centres over L_PP.
+fn residuals(reference: &Reference, targets: &[Target], values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let residual = |(target, value): (&Target, f64)| match target.quantity {
+        Quantity::Lcb | Quantity::Lcf => (value - target.value) / reference.between,
+        _ => value / target.value - 1.0,
+    };
+    targets.iter().zip(values).map(residual).collect()
 }
 
 /// The largest of residuals.

@@ -56,6 +56,12 @@ pub struct DeriveOutputs {
     pub middle_bodies: [Option<[f64; 2]>; 2],
     /// How far the daughter is from the scaled parent.
     pub moved: Option<SurfaceDistance>,
+    /// Heights \[m\] that lines come from and to.
+    #[doc(hidden)]
+    pub moved_heights: Vec<[f64; 2]>,
+    /// Positions \[m\] that lines come from and to.
+    #[doc(hidden)]
+    pub moved_positions: Vec<[f64; 2]>,
     /// GM and KG, where they are stated \[m\].
     #[doc(hidden)]
     pub stability: Option<[f64; 2]>,
@@ -82,6 +88,7 @@ impl DeriveOutputs {
             parallel_body: derived.parallel_body,
             inflections: self.inflections,
             middle_bodies: self.middle_bodies,
+            moved_lines: [&self.moved_heights, &self.moved_positions],
             moved: self.moved,
             waves: derived.waves.as_ref(),
             warnings: &self.warnings,
@@ -155,6 +162,8 @@ impl DeriveJob {
             lcb_percent: None,
             centres: wanted.centres,
             bilge_radius: wanted.bilge_radius,
+            moved_heights: wanted.moved_heights.clone(),
+            moved_positions: wanted.moved_positions.clone(),
             targets: stated_targets(wanted, conventions.density),
             free,
             method: self.method(),
@@ -238,6 +247,8 @@ pub fn derive_outputs(job: &DeriveJob, figures: &[Figure]) -> Result<DeriveOutpu
         targets,
         inflections,
         middle_bodies,
+        moved_heights: job.wanted.moved_heights.clone(),
+        moved_positions: job.wanted.moved_positions.clone(),
         moved,
         warnings,
         notes,

@@ -106,6 +106,13 @@ fn how(outputs: &DeriveOutputs) -> Vec<String> {
             lines.push(format!("Sections below T are alike from {aft:.3} to {fore:.3} m forward of AP."));
         }
     }
+    for (what, list) in [("height", &outputs.moved_heights), ("position", &outputs.moved_positions)] {
+        for [from, to] in list {
+            lines.push(format!(
+                "What lies at {what} {from:.3} m of the parent at these dimensions is moved to {to:.3} m."
+            ));
+        }
+    }
     let [before, after] = outputs.inflections;
     lines.push(format!("Inflections of stations and waterlines, scaled parent > daughter: {before} > {after}."));
     if outputs.middle_bodies.iter().any(Option::is_some) {

@@ -23,7 +23,7 @@ use crate::report::output::manifest::{figure_files, json_file, manifest_entry, m
 use crate::units::{Notation, decimal};
 
 /// Where the words of targets stand: options, and keys of the job file.
-const PLACES: [(&str, &str, &str); 27] = [
+const PLACES: [(&str, &str, &str); 29] = [
     ("wave-resistance", "--wave-resistance", "wave_resistance"),
     ("cb", "--cb", "Cb"),
     ("displacement", "--displacement", "displacement"),
@@ -44,6 +44,8 @@ const PLACES: [(&str, &str, &str); 27] = [
     ("draught", "--parent-draught", "parent_draught"),
     ("method", "--method", "method"),
     ("parallel-body", "--parallel-body", "parallel_body"),
+    ("move-height", "--move-height", "move_height"),
+    ("move-position", "--move-position", "move_position"),
     ("lpp", "--lpp", "Lpp"),
     ("beam", "--beam", "B"),
     ("weights", "--weights", "weights"),

@@ -69,6 +69,15 @@ impl FairOutputs {
         let wider = outcome.faired.carried.filter(|factor| *factor > 1.0).map_or(String::new(), |factor| {
             format!(", or tolerances {:.3} times as wide, with which the targets are one smooth move", upward(factor))
         });
+        if outcome.faired.waves.is_some() {
+            let message =
+                format!("the wave resistance falls, and lines bend more often: {before} > {after} inflections");
+            return Some(self.warned(
+                "W401",
+                message,
+                "Give a lesser --wave-weight, or limit them under shape.inflections",
+            ));
+        }
         let message = format!("the targets are met by adding inflections: {before} > {after}");
         Some(self.warned("W401", message, &format!("Ask for nearer targets{wider}")))
     }

@@ -228,9 +228,9 @@ pub(super) const REMARKS: [Explanation; 43] = [
     Explanation {
         code: "W401",
         title: "Targets met by adding inflections",
-        cause: "The hull of `fair` meets its targets, and all lines together have more inflections than before.",
+        cause: "The hull of `fair` meets its targets, or has less wave resistance, and all lines together have more inflections than before.",
         example: "`the targets are met by adding inflections: 16 > 20`.",
-        remedy: "Give nearer targets, or the wider tolerances that the message names.",
+        remedy: "Give nearer targets, the wider tolerances that the message names, or a lesser `--wave-weight`.",
     },
     Explanation {
         code: "W402",
