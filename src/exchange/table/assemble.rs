@@ -358,6 +358,11 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
         heads.iter_mut().for_each(|head| head.named = true);
     }
     let is_breadths = block.across == Axis::Waterline;
+    let said = reader.settings.sentences.waterlines.as_ref().map(|(spacing, _)| *spacing);
+    let stated = reader.settings.waterline_spacing.or(said).filter(|_| is_breadths);
+    if stated.is_some_and(|spacing| heights::are_obeyed(block, &heads, spacing, reader)) {
+        heads.iter_mut().for_each(|head| head.named = true);
+    }
     let spacing = heights::spacing(block, &heads, reader);
     let datum = if is_breadths { reader.datum } else { 0.0 };
     let across: Vec<f64> = heads.into_iter().map(|p| datum + reader.across_by(p, spacing)).collect();

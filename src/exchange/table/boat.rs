@@ -92,8 +92,15 @@ pub(super) fn read(
     let (y, z) =
         (Size::of(of(Group::HalfBreadths), form.decimal_comma), Size::of(of(Group::Heights), form.decimal_comma));
     let places: Vec<Position> = heads.iter().map(|(_, position)| *position).collect();
-    let corner =
-        Corner { rows: Some(if positions_row.is_some() { Axis::X } else { Axis::Station }), ..Corner::default() };
+    // The label over the heads themselves may say what they are: `Station (ft)`, `Distance from stem`.
+    let label = positions_row.map(|row| row.label).or(lines.positions);
+    let says = label.map(|label| Corner::of(label.trimmed())).unwrap_or_default();
+    let is_distance = positions_row.is_some() || says.rows == Some(Axis::X);
+    let corner = Corner {
+        rows: Some(if is_distance { Axis::X } else { Axis::Station }),
+        unit: label.and_then(groups::unit_of_label),
+        ..Corner::default()
+    };
     let breadths = Breadths { largest: y.largest, ..Breadths::default() };
     let origin = origin(settings, corner, &places, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(places.iter()), y, z], origin.numbers, problems);
@@ -127,11 +134,12 @@ pub(super) fn read(
     }
     // `forward of transom` counts from the transom.
     // `Distance forward of AP` and `Distance from AP, positive forward` both count from AP: the end counts, not the way.
-    let counts_from = |row: &Row<'_>| {
-        let ends = words(&row.name).into_iter().filter(|word| !matches!(word.as_str(), "forward" | "fwd" | "aft"));
-        ends.map(|word| end_of(&word)).find(|end| *end != 0).unwrap_or_else(|| end_of(&row.name))
+    let counts_from = |name: &str| {
+        let ends = words(name).into_iter().filter(|word| !matches!(word.as_str(), "forward" | "fwd" | "aft"));
+        ends.map(|word| end_of(&word)).find(|end| *end != 0).unwrap_or_else(|| end_of(name))
     };
-    let from = positions_row.map(counts_from);
+    let own = lines.positions.filter(|_| !matches!(datum, StationDatum::Numbers { .. }));
+    let from = positions_row.map(|row| counts_from(&row.name)).or(own.map(|label| counts_from(label.trimmed())));
     let is_placed = matches!(datum, StationDatum::Shifted { .. });
     if !is_placed && turn(&mut table, settings, from, reader.problems) {
         kept.reverse();

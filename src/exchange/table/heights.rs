@@ -1,11 +1,11 @@
 //! Heights of waterlines: the distance between those that have numbers, and the plane from which heights count.
 
 use super::assemble::TableReader;
-use super::header::{Axis, Coordinate, Corner, Position};
+use super::header::{Axis, Coordinate, Corner, Position, is_base_line};
 use super::matrix::Block;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::{Settings, metres};
-use crate::hull::{Entry, SideKind, SideLine, TableForm};
+use crate::hull::{Entry, SideKind, SideLine, StationDatum, TableForm};
 
 /// The distance between waterlines, or buttocks, that have numbers \[m\], where it is known; a warning where it is not.
 pub(super) fn spacing(block: &Block, heads: &[Position], reader: &mut TableReader<'_>) -> Option<f64> {
@@ -20,8 +20,21 @@ pub(super) fn spacing(block: &Block, heads: &[Position], reader: &mut TableReade
         _ => false,
     };
     let counts = block.across != Axis::Buttock || heads.windows(2).all(is_count);
-    if stated.is_some() || !counts || !are_numbered(block, heads, settings) {
+    if let Some(spacing) = stated {
+        let is_waterline = noun == "waterline" && !are_obeyed(block, heads, spacing, reader);
+        if is_waterline && heads.iter().any(|head| matches!(head.place, Coordinate::Number(_))) {
+            let message = format!("waterline_spacing {} m is not used: waterlines are heights", metres(spacing));
+            let remedy = "Name waterlines WL 1, WL 2 if they are numbers, or leave the key out";
+            reader.problems.warning("W332", FilePosition::FILE, message, remedy);
+        }
         return stated;
+    }
+    if !counts {
+        return None;
+    }
+    if !are_numbered(block, heads, settings) {
+        may_be_numbers(block, heads, reader);
+        return None;
     }
     let (message, remedy) = match said {
         Some((spacing, words)) => {
@@ -44,15 +57,62 @@ pub(super) fn spacing(block: &Block, heads: &[Position], reader: &mut TableReade
     said.as_ref().map(|(spacing, _)| *spacing)
 }
 
+/// Whether plain numbers over waterlines are such as the spacing stated is of: named, or none that already lie so far apart, where
+/// no unit of heights is stated.
+pub(super) fn are_obeyed(block: &Block, heads: &[Position], spacing: f64, reader: &TableReader<'_>) -> bool {
+    if 2 * heads.iter().filter(|head| head.named).count() > heads.len() || names_waterlines(block.corner.trimmed()) {
+        return true;
+    }
+    let step = usual_step(heads).map(|step| (reader.units.z.metres(step), step));
+    !has_unit(block, reader.settings)
+        && step.is_some_and(|(length, step)| (length / spacing - 1.0).abs() > 1e-6 && (step - 1.0).abs() < 1e-9)
+}
+
+/// The median step between the plain numbers of positions.
+fn usual_step(heads: &[Position]) -> Option<f64> {
+    let number = |head: &Position| if let Coordinate::Number(number) = head.place { Some(number) } else { None };
+    let numbers: Vec<f64> = heads.iter().map(number).collect::<Option<_>>()?;
+    let mut steps: Vec<f64> = numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    steps.sort_by(f64::total_cmp);
+    steps.get(steps.len() / 2).copied()
+}
+
+/// Whether a unit of heights is stated.
+fn has_unit(block: &Block, settings: &Settings) -> bool {
+    let corner = Corner::of(block.corner.trimmed());
+    let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
+    settings.z_units.is_some() || corner.unit.is_some() && of_heights
+}
+
+/// Says that waterlines 0, 1, 2, 3 are taken as heights, where stations are numbered too or the base line stands among them.
+fn may_be_numbers(block: &Block, heads: &[Position], reader: &mut TableReader<'_>) {
+    let whole = |(head, field): (&Position, &Field)| {
+        matches!(head.place, Coordinate::Number(number) if (4.0 * number).fract().abs() < 1e-9)
+            && !(is_decimal(field.trimmed()) && field.trimmed().ends_with(".0"))
+    };
+    let numbered = matches!(reader.form.origin, StationDatum::Numbers { .. });
+    let base = block.heads.first().into_iter().chain(block.heads.last()).any(|head| is_base_line(head.trimmed()));
+    let follow = usual_step(heads).is_some_and(|step| (step - 1.0).abs() < 1e-9);
+    let all = heads.len() > 3 && heads.iter().zip(&block.heads).all(whole);
+    let [first, .., last] = block.heads.as_slice() else { return };
+    if block.across == Axis::Waterline && (numbered || base) && follow && all && !has_unit(block, reader.settings) {
+        let message = format!(
+            "waterlines '{}' to '{}' may be numbers, and their spacing is not known: taken as heights",
+            first.trimmed(),
+            last.trimmed()
+        );
+        let remedy = "Give waterline_spacing in the conventions, or z_units if they are heights";
+        reader.problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
+}
+
 /// Fewer whole numbers among waterlines are no numbers where others have decimals.
 const LEAST_WHOLE: usize = 4;
 
 /// Whether the waterlines have numbers, as WL 0, WL 1/2, WL 1, WL 2, and nothing says how far apart they are. What is written
 /// with a decimal sign or with a unit is a height.
 fn are_numbered(block: &Block, heads: &[Position], settings: &Settings) -> bool {
-    let corner = Corner::of(block.corner.trimmed());
-    let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
-    if settings.z_units.is_some() || corner.unit.is_some() && of_heights {
+    if has_unit(block, settings) {
         return false;
     }
     let named = heads.iter().filter(|head| head.named).count();

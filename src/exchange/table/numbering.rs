@@ -4,6 +4,7 @@ use super::header::{Axis, Coordinate, Corner, From, Position, is_aftward};
 use super::problem::{FilePosition, Problems};
 use super::settings::{Settings, StationScale, metres};
 use crate::hull::StationDatum;
+use crate::units::Notation;
 
 /// Spaces between perpendiculars that drawings have.
 const USUAL_SPACES: [f64; 2] = [20.0, 10.0];
@@ -22,6 +23,9 @@ pub(super) const ORIGINS: &str =
 
 /// Hulls end within this part of their length beyond the perpendiculars.
 pub(super) const OVERHANG: f64 = 0.25;
+
+/// Positions that extend over less than this part of L_PP are no distances.
+const PART_OF_LENGTH: f64 = 0.5;
 
 /// Hulls whose length would be less than this many breadths may have numbers for stations.
 const SHORT: f64 = 4.0;
@@ -185,8 +189,16 @@ pub(super) fn origin(
         problems.warning("W320", FilePosition::FILE, message, "Give stations in the conventions if it does not");
     }
     let corner = Corner { from: corner.from.or(end.map(|(from, _)| *from)), ..corner };
-    let scale = stated.unwrap_or_else(|| {
+    let own_unit = settings.x_units.or(corner.x_unit).or(corner.unit);
+    let mut scale = stated.unwrap_or_else(|| {
         let are_numbers = match says {
+            // A spacing is that of numbers.
+            _ if settings
+                .station_spacing
+                .is_some_and(|spacing| own_unit.is_none() && follow(&numbers) && (spacing - 1.0).abs() > 1e-9) =>
+            {
+                true
+            }
             Some(Axis::Station | Axis::Frame)
                 if corner.unit.or(corner.x_unit).is_none() && high - low <= MOST_NUMBERS =>
             {
@@ -201,9 +213,48 @@ pub(super) fn origin(
                 numbers.len() > 1 && length < 2.0 * breadths.largest
             }
         };
-        let are_numbers = are_numbers || shows_numbers(&heads, length);
+        // So many spaces in L_PP, which the numbers as distances would be far from.
+        let by_length = length.is_some_and(|length| {
+            says != Some(Axis::X)
+                && own_unit.is_none()
+                && counts(&numbers, [low, high])
+                && high - low < PART_OF_LENGTH * length
+        });
+        let are_numbers = are_numbers || by_length || shows_numbers(&heads, length);
         StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers: are_numbers }
     });
+    // Where nothing says how far apart numbers are, a unit says that they are distances.
+    let is_spaced = length.is_some()
+        || settings.station_spacing.is_some()
+        || settings.sentences.spacing.is_some()
+        || settings.sentences.frames.is_some()
+        || heads.iter().any(|head| head.end.is_some())
+        || 2 * named > heads.len();
+    let unit = own_unit.or(settings.units);
+    if let Some(unit) = unit.filter(|_| scale.numbers && stated.is_none() && !is_spaced && numbers.len() > 1)
+        && unit.metres(high - low) >= 2.0 * breadths.largest
+        && (own_unit.is_some() || !counts(&numbers, [low, high]))
+    {
+        scale.numbers = false;
+        if own_unit.is_none() {
+            let message = format!(
+                "stations {low} to {high} are taken as distances in {}, as neither L_PP nor a spacing makes numbers of them",
+                unit.as_str()
+            );
+            let remedy = "Give station_spacing in the conventions if they are numbers, or x_units if they are not";
+            problems.warning("W320", FilePosition::FILE, message, remedy);
+        }
+    }
+    if !scale.numbers
+        && stated.is_none_or(|scale| !scale.numbers)
+        && let Some(spacing) = settings.station_spacing.filter(|_| !numbers.is_empty())
+        && !step_of(&numbers)
+            .is_some_and(|step| (unit.unwrap_or(Notation::Metres).metres(step) / spacing - 1.0).abs() < 1e-6)
+    {
+        let message = format!("station_spacing {} m is not used: stations stand at distances", metres(spacing));
+        let remedy = "Give stations = \"numbers from AP\" in the conventions if they are numbers, or leave the key out";
+        problems.warning("W332", FilePosition::FILE, message, remedy);
+    }
     let is_stated = stated.is_some() || settings.units.or(settings.x_units).or(corner.unit).or(corner.x_unit).is_some();
     let is_short = high - low < 2.0 * SHORT * breadths.largest;
     if !scale.numbers && !is_stated && says != Some(Axis::X) && is_short && counts(&numbers, [low, high]) {
@@ -375,6 +426,10 @@ fn distances(
 /// Twenty or ten spaces where the numbers end there, or one before with the other end one after 0; others have to be stated.
 fn usual([low, high]: [f64; 2]) -> Option<f64> {
     let is = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    // Numbers of both signs count from midship.
+    if low <= -0.5 * high && low < -1.0 {
+        return USUAL_SPACES.into_iter().find(|&n| is(high - low, n));
+    }
     USUAL_SPACES.into_iter().find(|&n| high >= n - 1e-9 && high < n + 2.0 || is(high, n - 1.0) && is(low, 1.0))
 }
 
@@ -384,14 +439,24 @@ fn begins_with_one([low, high]: [f64; 2]) -> bool {
     is(low, 1.0) && USUAL_SPACES.into_iter().any(|n| is(high, n + 1.0))
 }
 
-/// Whether positions are such as numbers of stations are: quarters, mostly one apart, up to a usual number of spaces.
-fn counts(numbers: &[f64], ends: [f64; 2]) -> bool {
+/// The median step between numbers.
+fn step_of(numbers: &[f64]) -> Option<f64> {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
     let mut steps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
     steps.sort_by(f64::total_cmp);
-    let usual_step = steps.get(steps.len() / 2).is_some_and(|step| (step - 1.0).abs() < 1e-9);
-    usual_step && usual(ends).is_some() && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9)
+    steps.get(steps.len() / 2).copied()
+}
+
+/// Whether numbers are quarters, mostly one apart.
+fn follow(numbers: &[f64]) -> bool {
+    step_of(numbers).is_some_and(|step| (step - 1.0).abs() < 1e-9)
+        && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9)
+}
+
+/// Whether positions are such as numbers of stations are: quarters, mostly one apart, up to a usual number of spaces.
+fn counts(numbers: &[f64], ends: [f64; 2]) -> bool {
+    follow(numbers) && usual(ends).is_some()
 }
 
 /// The distance from one number to the next \[m\], perhaps as a sentence says it; `between` are the spaces between AP and FP,
