@@ -165,7 +165,17 @@ fn says_breadths(text: &str, is_header: bool) -> bool {
     // `B`, `breadth moulded` and `beam 12 m` are dimensions.
     let has_number = lower.bytes().any(|b| b.is_ascii_digit());
     let is_dimension = has_number || lower.contains(['=', ':']) || lower.contains("mould") || lower.contains("mold");
-    !lower.contains("half") && !is_dimension && side_of(text).is_none() && words.any(says)
+    if lower.contains("half") || has_number || side_of(text).is_some() {
+        return false;
+    }
+    // `Moulded breadths`, `Offsets: breadths`, `Breadth offsets`, `Beam at waterlines` are over a table.
+    let has = |any: &[&str]| lower.split(|c: char| !c.is_alphabetic()).any(|word| any.contains(&word));
+    let over_table = ["offset", "offsets", "table", "waterline", "waterlines", "wl", "wls"];
+    let of_table = has(&["breadths", "widths", "beams", "breiten"])
+        || has(&["breadth", "beam", "width"]) && has(&over_table) && !lower.contains('=');
+    of_table
+        || !is_dimension && words.any(says)
+        || is_header && lower.split(['[', '(']).next().is_some_and(|name| name.trim() == "b")
 }
 
 /// Whether the header of a line of offsets says breadth or beam: `Beam at 2 m`.
@@ -204,6 +214,10 @@ fn is_particular(lower: &str) -> bool {
 fn says_full_part(lower: &str) -> bool {
     let close: String = lower.chars().filter(|c| !c.is_whitespace()).collect();
     if ["2y(x", "2y(z", "2y["].iter().any(|begin| close.starts_with(begin)) {
+        return true;
+    }
+    // `x \\ 2y` and `Ordinates 2y`.
+    if lower.split(|c: char| !c.is_alphanumeric()).any(|word| matches!(word, "2y" | "2b")) {
         return true;
     }
     let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();

@@ -83,8 +83,8 @@ fn words(text: &str) -> Vec<String> {
 fn axis_word(word: &str) -> Option<Axis> {
     Some(match word {
         "x" | "distance" | "abscissa" => Axis::X,
-        "station" | "stations" | "stn" | "stns" | "sta" | "st" | "ordinate" | "section" | "sections" | "sec"
-        | "rebro" => Axis::Station,
+        "station" | "stations" | "stn" | "stns" | "sta" | "stat" | "st" | "ordinate" | "section" | "sections"
+        | "sec" | "rebro" => Axis::Station,
         "frame" | "frames" | "fr" | "spant" => Axis::Frame,
         "z" | "wl" | "wls" | "waterline" | "waterlines" | "height" | "heights" | "draught" | "draft" | "level"
         | "base" | "baseline" => Axis::Waterline,
@@ -211,7 +211,9 @@ impl Corner {
             && of_stations
             && !counted
             && ["%", "per cent", "percent"].iter().any(|word| lower.contains(word));
-        let is_part = ["x/lpp", "x/lbp", "x / lpp"].iter().any(|words| lower.starts_with(words));
+        let is_part = ["x/lpp", "x/lbp", "x / lpp"].iter().any(|words| lower.starts_with(words))
+            || lower.trim() == "x/l"
+            || lower.starts_with("x/l ");
         let (rows, spaces) = match (is_share, is_part) {
             (true, _) => (Some(Axis::Station), Some(100.0)),
             (false, true) => (Some(Axis::Station), Some(1.0)),

@@ -41,9 +41,9 @@ impl Settings {
             let words = || comment.trim().to_owned();
             let known = &mut self.sentences;
             let apart = |names: &[&str]| spacing(&lower, names).map(|found| (found, words()));
-            known.spacing = known.spacing.take().or_else(|| apart(&["station", "stations"]));
+            known.spacing = known.spacing.take().or_else(|| apart(&STATIONS[..9]));
             known.frames = known.frames.take().or_else(|| apart(&["frame", "frames"]));
-            known.waterlines = known.waterlines.take().or_else(|| apart(&["waterline", "waterlines", "wl"]));
+            known.waterlines = known.waterlines.take().or_else(|| apart(&["waterline", "waterlines", "wl", "wls"]));
             known.buttocks = known.buttocks.take().or_else(|| apart(&["buttock", "buttocks"]));
             if let Some((number, end)) = numbered_end(&lower).filter(|(number, _)| *number > 0.0) {
                 known.spaces = known.spaces.or(Some(number));
@@ -96,23 +96,30 @@ fn sentences(text: &str) -> Vec<&str> {
 /// Main dimensions with their lengths \[m\] in a text: `Lpp 100 m, B = 16 m`. Bare numbers and single letters count behind a
 /// sign alone, and a bare length may be any.
 pub(in crate::exchange::table) fn dimensions(text: &str) -> Vec<(String, f64)> {
-    let parts = text.split(';').flat_map(|part| part.split(", "));
+    let parts = text
+        .split(';')
+        .flat_map(|part| part.split(", "))
+        .flat_map(|part| part.split(" x "))
+        .flat_map(|part| part.split(" / "));
     let dimension = |part: &str| {
         let at = part.find(|c: char| c.is_ascii_digit())?;
         let (key, value) = (part[..at].trim(), part[at..].trim().trim_end_matches('.'));
         let name = key.trim_end_matches([':', '=', ' ']);
         let has_sign = key.ends_with([':', '=']);
-        let length = match plain_number(value) {
-            Some(number) => Some(number).filter(|_| has_sign),
-            None => parse_length(value).ok(),
-        };
-        let is_name = slot(&mut StatedParticulars::default(), name).is_some()
-            && (has_sign || name.chars().count() > 1)
-            && !matches!(name.to_lowercase().as_str(), "l" | "length");
-        let length = length.filter(|length| is_name && *length > 0.0 && *length < 1e5)?;
-        Some((name.to_owned(), length))
+        let bare = plain_number(value);
+        let length = bare.or_else(|| parse_length(value).ok()).filter(|length| *length > 0.0 && *length < 1e5)?;
+        let is_name = slot(&mut StatedParticulars::default(), name).is_some();
+        let is_long = name.chars().count() > 1 && !name.eq_ignore_ascii_case("length");
+        let is_open = name.eq_ignore_ascii_case("l") || name.eq_ignore_ascii_case("length");
+        let plain = !is_open && (has_sign || is_long && bare.is_none());
+        is_name.then(|| (name.to_owned(), length, plain, bare.is_none()))
     };
-    parts.filter_map(dimension).collect()
+    let found: Vec<(String, f64, bool, bool)> = parts.filter_map(dimension).collect();
+    // Several dimensions in one text are such without a sign too.
+    let known = |(_, _, plain, has_unit): &&(String, f64, bool, bool)| {
+        *plain || found.len() > 2 || *has_unit && found.len() > 1
+    };
+    found.iter().filter(known).map(|(name, length, ..)| (name.clone(), *length)).collect()
 }
 
 /// Words of a text: runs of letters and digits with decimal points.
@@ -244,6 +251,38 @@ const FARTHEST: f64 = 40.0;
 
 /// The distance between lines of these names in "stations 3 ft apart", "station spacing: 5 m", "spacing of stations 16 ft 5 in".
 pub(in super::super) fn spacing(lower: &str, names: &[&str]) -> Option<f64> {
+    plain_spacing(lower, names).or_else(|| cued_spacing(lower, names))
+}
+
+/// Words that say of a length beside the name of lines that it is the space between them, and others that may stand with these.
+const CUES: [&str; 8] = ["apart", "spaced", "spacing", "every", "interval", "intervals", "distance", "between"];
+const BESIDE: [&str; 6] = ["at", "of", "is", "are", "the", "each"];
+
+/// The length with a unit behind a name in "stations spaced 6 m", "waterlines at 1.5 m intervals", "distance between stations 6 m".
+fn cued_spacing(lower: &str, names: &[&str]) -> Option<f64> {
+    let words: Vec<&str> = lower
+        .split([' ', ':', '=', ',', '\t', '/'])
+        .map(|word| word.trim_end_matches('.'))
+        .filter(|word| !word.is_empty())
+        .collect();
+    let is_cue = |word: &&str| CUES.contains(word);
+    let behind = |at: usize| {
+        let from = at + 1;
+        let filling = words[from..].iter().take_while(|word| is_cue(word) || BESIDE.contains(word)).count();
+        let number = from + filling;
+        words.get(number).filter(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
+        let (count, length) = (1..=4).rev().find_map(|count| {
+            let text = words.get(number..number + count)?.join(" ");
+            plain_number(&text).is_none().then(|| parse_length(&text).ok()).flatten().map(|length| (count, length))
+        })?;
+        let cued =
+            words[at.saturating_sub(2)..number].iter().any(is_cue) || words.get(number + count).is_some_and(is_cue);
+        (cued && length > 0.0 && length.is_finite()).then_some(length)
+    };
+    (0..words.len()).filter(|&at| names.contains(&words[at])).find_map(behind)
+}
+
+fn plain_spacing(lower: &str, names: &[&str]) -> Option<f64> {
     let length = |words: &[&str]| {
         let text = words.join(" ");
         let text = text.trim_end_matches('.');
