@@ -71,6 +71,7 @@ mod suspects_lines;
 mod suspects_outlines;
 mod table_boats;
 mod table_cases;
+mod table_conventions;
 mod table_errors;
 mod table_evidence;
 mod table_files;

@@ -291,6 +291,13 @@ fn sections_of_few_points_are_straight_and_others_are_weighed() {
     // A well: the sections fall on the way to the deck, and the hull through them is another.
     let dock = [(0.0, 0.0), (10.0, 0.0), (10.0, 3.0), (10.0, 6.0), (8.0, 6.0), (8.0, 4.0), (8.0, 2.0), (0.0, 2.0)];
     has(&volume("dock.csv", &sections(&dock), 5.0).1, "W340");
+    // Few points: what is between them may be round or straight, by more than a hundredth.
+    let few = [(0.0, 0.0), (1.8, 0.12), (3.2, 0.45), (3.92, 0.9), (4.0, 1.5)];
+    has(&volume("few.csv", &sections(&few), 1.0).1, "W340");
+    // A flat bottom on the base line is known.
+    let flat = [(4.0, 0.0), (4.4, 0.3), (4.7, 0.65), (4.9, 1.1), (5.0, 2.0), (5.0, 4.0), (5.0, 6.0)];
+    let notes = volume("flat.csv", &sections(&flat), 5.0).1;
+    assert!(!notes.iter().any(|note| note.starts_with("W315")), "{notes:?}");
     // No bottom below the first points.
     let open = [(4.0, 0.3), (4.4, 0.6), (4.7, 0.95), (4.9, 1.4), (5.0, 2.0), (5.0, 4.0), (5.0, 6.0)];
     has(&volume("open.csv", &sections(&open), 5.0).1, "W315");

@@ -168,6 +168,18 @@ impl OffsetTable {
         (highest + 1..self.waterlines.len()).any(|j| given(j).next().is_some()).then_some(highest)
     }
 
+    /// The station of the only offset of a waterline, where it is between zeros at the two stations beside it that stand nearer
+    /// than it is large: no waterline, but an error of the table or of the program that cut it.
+    #[must_use]
+    pub fn lone_offset(&self, waterline: usize) -> Option<usize> {
+        let at = |k: usize| Some((self.stations.get(k)?.station.x, self.stations[k].half_breadth(waterline)?));
+        let mut positive = (0..self.stations.len()).filter(|&k| at(k).is_some_and(|(_, y)| y > 0.0));
+        let (only, None) = (positive.next()?, positive.next()) else { return None };
+        let (x, y) = at(only)?;
+        let beside = [at(only.checked_sub(1)?)?, at(only + 1)?];
+        beside.iter().all(|&(other, zero)| zero <= 0.0 && (other - x).abs() < y).then_some(only)
+    }
+
     /// Lifts the offsets of a hull at the given stations, waterlines and buttocks.
     #[must_use]
     pub fn from_hull(hull: &Hull, stations: &[OffsetStation], waterlines: &[f64], buttocks: &[f64]) -> Self {

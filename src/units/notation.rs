@@ -23,6 +23,9 @@ pub enum Notation {
 /// An eighth of an inch \[m\].
 const EIGHTH: f64 = 0.0254 / 8.0;
 
+/// Smaller numbers are what rounding leaves of 0, and have more digits than a cell.
+const LEAST: f64 = 1e-18;
+
 impl Notation {
     /// A small length \[m\] in words: in millimetres, or in eighths of an inch where tables are written in those.
     #[must_use]
@@ -114,6 +117,7 @@ impl Notation {
     /// Fewest digits that read back as `length`: 6.41 m is 641 cm, not 641.0000000000001.
     fn shortest(self, length: f64, number: f64) -> String {
         // Adding zero takes the sign from a negative zero.
+        let number = if number.abs() < LEAST { 0.0 } else { number };
         let full = format!("{}", number + 0.0);
         if self == Self::Metres {
             return full;
@@ -180,6 +184,7 @@ mod tests {
 
     #[test]
     fn full_numbers_read_back_as_the_same_length() {
+        assert_eq!([1e-90, -1e-20].map(|rest| Notation::Metres.write(rest)), ["0", "0"]);
         for k in 0..3000 {
             let length = f64::from(k) * 0.010_370_123_7 - 5.0;
             for notation in [Notation::Metres, Notation::Centimetres, Notation::Feet, Notation::Inches] {

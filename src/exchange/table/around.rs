@@ -197,7 +197,10 @@ fn says_breadths(text: &str, is_header: bool) -> bool {
     if all.iter().any(|word| is_of_ship(&word)) && all.iter().any(|word| of_lines.contains(word)) {
         return !all.contains(&"half") && !has_value(&lower) && side_of(text).is_none();
     }
-    if all.iter().any(|word| matches!(*word, "breadths" | "widths")) && !all.contains(&"half") && !has_value(&lower) {
+    if all.iter().any(|word| matches!(*word, "breadths" | "widths" | "beams" | "breiten"))
+        && !all.contains(&"half")
+        && !has_value(&lower)
+    {
         return true;
     }
     // `B`, `breadth moulded` and `beam 12 m` are dimensions.

@@ -165,9 +165,7 @@ fn of_breadths<'l, 'g>(lines: &'l Lines<'g>) -> impl Iterator<Item = &'l Row<'g>
 
 /// What the label of the positions of stations says: their unit, and from where they count.
 fn corner(lines: &Lines<'_>, positions_row: Option<&Row<'_>>) -> Corner {
-    let names_positions = |field: &&&Field| group_of(&field.text).0 == Some(Group::Positions);
-    let above = lines.titles.iter().rev().find(names_positions).copied();
-    let label = positions_row.map(|row| row.label).or(above);
+    let label = positions_row.map(|row| row.label).or(lines.positions);
     let Some(label) = label else { return Corner { rows: Some(Axis::Station), ..Corner::default() } };
     let Corner { rows, unit, x_unit, from, aftward, .. } = Corner::of(label.trimmed());
     let x_unit = x_unit.or(unit);

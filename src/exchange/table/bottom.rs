@@ -12,6 +12,9 @@ const SHARE: f64 = 0.01;
 /// Least waterplane of a hull that goes on below it, over the greatest.
 const WATERPLANE: f64 = 0.01;
 
+/// A waterplane of less than this part of the greatest is that of a hull that closes.
+const CLOSED: f64 = 0.2;
+
 /// Part of the greatest half-breadth up to which a first point is the siding of a keel.
 const SIDING: f64 = 0.15;
 /// Least half-breadth of the first point of a section that does not close, over that of the hull.
@@ -48,7 +51,8 @@ pub(super) fn unknown(table: &OffsetTable, problems: &mut Problems) {
     let draught = table.stated.draught.filter(|draught| *draught > lowest);
     let above = volume(areas, draught.unwrap_or(f64::INFINITY));
     let of = draught.map_or_else(|| "the volume".to_owned(), |draught| format!("the volume up to T {draught} m"));
-    if table.stations.iter().any(has_keel) {
+    // A flat of bottom without a height lies nowhere.
+    if table.stations.iter().any(|station| station.keel_height.is_some()) {
         let below = 0.5 * to_keel(table, first);
         if below > SHARE * (below + above) {
             let message = format!(
@@ -68,6 +72,24 @@ pub(super) fn unknown(table: &OffsetTable, problems: &mut Problems) {
             100.0 * below / (below + above)
         );
         problems.warning("W315", FilePosition::FILE, message, remedy);
+    }
+}
+
+/// Whether a table is broadest at its lowest waterline and closes at its highest, as one whose heights count downward.
+pub(super) fn upside_down(table: &OffsetTable, problems: &mut Problems) {
+    let given = |j: usize| table.stations.iter().filter(|station| station.half_breadth(j).is_some()).count();
+    let lines: Vec<usize> = (0..table.waterlines.len()).filter(|j| given(*j) > 0).collect();
+    let [first, .., last] = lines[..] else { return };
+    let areas = areas(table);
+    let greatest = areas.iter().map(|[_, area]| *area).fold(0.0, f64::max);
+    let narrows = lines.windows(2).all(|pair| areas[pair[1]][1] <= areas[pair[0]][1] * (1.0 + 1e-3));
+    let closes = areas[last][1] <= CLOSED * greatest && 4 * given(last) > 3 * given(first);
+    if lines.len() > 3 && narrows && closes {
+        let message = format!(
+            "the hull is broadest at its lowest waterline, {} m, and closes at its highest, {} m: heights may count downward",
+            table.waterlines[first], table.waterlines[last]
+        );
+        problems.warning("W320", FilePosition::FILE, message, super::around::UPWARD);
     }
 }
 
@@ -149,7 +171,8 @@ fn open_area(station: &StationOffsets, greatest: f64) -> f64 {
     let slope = |a: &OutlinePoint, b: &OutlinePoint| (b.z - a.z) / (b.y - a.y).abs().max(f64::MIN_POSITIVE);
     let rises = slope(first, second);
     let closed = station.flat_of_bottom.is_some() || station.half_breadths.iter().any(|cell| cell.value().is_some());
-    if closed || first.y <= OPEN * greatest || rises <= LEVEL {
+    // On the base line the level line to the centreplane is the bottom.
+    if closed || first.z.abs() <= SAME || first.y <= OPEN * greatest || rises <= LEVEL {
         return 0.0;
     }
     // A siding is narrow; beside a broad first point the slope is that of the bottom itself.

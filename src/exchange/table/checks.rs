@@ -72,6 +72,19 @@ pub(super) fn endings(table: &mut OffsetTable, settings: &Settings, problems: &m
     }
 }
 
+/// Names offsets that are alone among the zeros of their waterline, which no surface follows.
+fn lone(table: &OffsetTable, problems: &mut Problems) {
+    for (j, &z) in table.waterlines.iter().enumerate() {
+        let Some(station) = table.lone_offset(j).map(|k| &table.stations[k]) else { continue };
+        let message = format!(
+            "the offset at station '{}', waterline {z} m, is alone among zeros of its waterline: left out of the surface",
+            station.station.name
+        );
+        let place = station.half_breadths.get(j).map_or(FilePosition::FILE, |cell| Field::of_cell(cell).place());
+        problems.warning("W335", place, message, "Correct it, or those beside it");
+    }
+}
+
 /// Profiles that contradict the stations: a stern before the middle of them, a stem behind it, or either within stations that
 /// have a breadth at its height.
 pub(super) fn profiles(table: &OffsetTable, problems: &mut Problems) {
@@ -244,7 +257,9 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
             "Give rows 'stern' and 'stem' below the half-breadths, or [endings]",
         );
     }
+    lone(table, problems);
     sides(table, problems);
+    bottom::upside_down(table, problems);
     bottom::unknown(table, problems);
     ends::cut_off(table, problems);
     if let Some(highest) = table.closes_above() {

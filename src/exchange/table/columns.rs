@@ -137,9 +137,8 @@ fn bare_axis(words: &str) -> Option<&str> {
 
 fn axis(words: &str) -> Option<Column> {
     Some(match bare_axis(words).unwrap_or(words) {
-        "station" | "stations" | "stn" | "sta" | "st" | "section" | "frame" | "ordinate" | "name" | "spant" => {
-            Column::Station
-        }
+        "station" | "stations" | "stn" | "sta" | "stat" | "st" | "section" | "frame" | "ordinate" | "name"
+        | "spant" => Column::Station,
         "x"
         | "long. pos"
         | "longitudinal pos"

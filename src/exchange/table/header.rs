@@ -89,8 +89,8 @@ fn words(text: &str) -> Vec<String> {
 fn axis_word(word: &str) -> Option<Axis> {
     Some(match word {
         "x" | "distance" | "abscissa" => Axis::X,
-        "station" | "stations" | "stn" | "stns" | "sta" | "st" | "ordinate" | "section" | "sections" | "sec"
-        | "rebro" => Axis::Station,
+        "station" | "stations" | "stn" | "stns" | "sta" | "stat" | "st" | "ordinate" | "section" | "sections"
+        | "sec" | "rebro" => Axis::Station,
         "frame" | "frames" | "fr" | "spant" => Axis::Frame,
         "z" | "wl" | "wls" | "waterline" | "waterlines" | "height" | "heights" | "draught" | "draft" | "level"
         | "base" | "baseline" => Axis::Waterline,

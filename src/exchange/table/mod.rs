@@ -54,6 +54,7 @@ mod sidecar;
 mod sides;
 mod thousands;
 mod tidy;
+mod titles;
 mod triples;
 mod unsupported;
 #[cfg(feature = "workbooks")]
@@ -235,6 +236,9 @@ fn of_grid(
     for field in grid.rows.iter_mut().flatten().filter(|field| field.text.starts_with('\'')) {
         field.text = unguarded(&field.text).to_owned();
     }
+    if sheet.is_none() {
+        titles::settle(&mut grid.rows, grid.separator);
+    }
     triples::settle(&mut grid.rows, problems);
     thousands::settle(&mut grid.rows, grid.separator, settings, problems);
     let layout = settings.layout.unwrap_or_else(|| {
@@ -251,6 +255,9 @@ fn of_grid(
     if let Some(header) = long::unknown_words(&grid.rows).filter(|_| layout == TableLayout::Matrix) {
         long::refuse_words(header, problems);
         return None;
+    }
+    if layout == TableLayout::Tidy {
+        titles::units_below(&mut grid.rows, long::from_header);
     }
     if layout != TableLayout::Matrix {
         around::titles(&grid.rows, settings, problems);

@@ -215,6 +215,17 @@ pub(super) fn origin(
         let are_numbers = are_numbers || shows_numbers(&heads, length);
         StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers: are_numbers }
     });
+    if !scale.numbers
+        && let Some(spacing) = settings.station_spacing.filter(|_| !numbers.is_empty())
+        && usual_step(&numbers).is_none_or(|step| {
+            let unit = own_unit.or(settings.units).unwrap_or(Notation::Metres);
+            (unit.metres(step) / spacing - 1.0).abs() > 1e-3
+        })
+    {
+        let message = format!("station_spacing {} m is not used: stations stand at distances", metres(spacing));
+        let remedy = "Give stations = \"numbers from AP\" in the conventions if they are numbers, or leave the key out";
+        problems.warning("W332", FilePosition::FILE, message, remedy);
+    }
     let is_stated = stated.is_some() || settings.units.or(settings.x_units).or(corner.unit).or(corner.x_unit).is_some();
     let is_short = high - low < 2.0 * SHORT * breadths.largest;
     if !scale.numbers && !is_stated && says != Some(Axis::X) && is_short && counts(&numbers, [low, high]) {

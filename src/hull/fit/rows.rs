@@ -238,6 +238,16 @@ fn row(
     let count = line.order.len();
     let given: Vec<usize> = (0..count).filter(|&k| line.value(k).is_some()).collect();
     let positive: Vec<usize> = given.iter().copied().filter(|&k| line.value(k).is_some_and(|y| y > 0.0)).collect();
+    let lone = line.table.lone_offset(line.j).and_then(|at| line.order.iter().position(|&i| i == at));
+    let positive = if lone.is_some() { Vec::new() } else { positive };
+    if let Some(k) = lone {
+        notes.push(format!(
+            "the offset {:.3} m at x = {:.3} m is alone among zeros on the waterline at z = {:.3} m, and the surface does not follow it",
+            line.value(k).unwrap_or_default(),
+            line.x(k),
+            line.z()
+        ));
+    }
     // A line of zeros is a keel: it runs over all of them.
     let run = if positive.is_empty() { &given } else { &positive };
     let (&first, &last) = (run.first()?, run.last()?);
@@ -249,6 +259,7 @@ fn row(
     let fore_deck = decked(&mut (last + 1..count));
     let (first, last) = (aft_deck.last().copied().unwrap_or(first), fore_deck.last().copied().unwrap_or(last));
     let value = |k: usize| line.value(k).or_else(|| if line.above_deck(k) { line.deck_half_breadth(k) } else { None });
+    let value = |k: usize| if lone == Some(k) { None } else { value(k) };
     let mut ends = [End { x: 0.0, y: 0.0 }; 2];
     let mut transom = false;
     for (side, place) in ends.iter_mut().enumerate() {

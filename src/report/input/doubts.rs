@@ -88,6 +88,15 @@ pub(in crate::report) fn drawn_doubt(table: &OffsetTable, hull: &Hull) -> Option
     }
     let [drawn, bulge, found] = [of_points, bulges, of_hull].map(|list| trapezoids(&list));
     let off = found / drawn - 1.0;
+    if drawn > 0.0 && off.abs() > SHARE && off.abs() <= SHARE + 2.0 * bulge / drawn && table.form.boat_lines.is_empty()
+    {
+        return Some(format!(
+            "W340 curves through the points of the sections enclose {:+.1} % more than straight lines between them, {} m3: chines are \
+             marked K, and more points show what is round",
+            100.0 * off,
+            volume(2.0 * drawn)
+        ));
+    }
     (drawn > 0.0 && off.abs() > SHARE + 2.0 * bulge / drawn).then(|| {
         format!(
             "W340 the sections as they are drawn enclose {} m3 on both sides, and the hull through them {:+.1} % of that: points were \

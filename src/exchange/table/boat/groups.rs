@@ -40,6 +40,8 @@ pub(super) struct Lines<'g> {
     pub(super) rows: Vec<Row<'g>>,
     /// All labels, those of groups among them.
     pub(super) labels: Vec<&'g Field>,
+    /// What the heads are, beside them.
+    pub(super) positions: Option<&'g Field>,
     /// Titles, and what stands above the labels.
     pub(super) titles: Vec<&'g Field>,
     /// What comments and rows of words say, of where diagonals lie among others.
@@ -123,7 +125,10 @@ fn is_value(field: &Field) -> bool {
 
 /// The rows with their groups; none where the table has no labels and cells.
 pub(super) fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
-    let at = rows.iter().position(|row| row.iter().filter(|field| !field.is_blank()).count() > 1)?;
+    let filled = |row: &Vec<Field>| row.iter().filter(|field| !field.is_blank()).count();
+    // Main dimensions above the table are a word with a number.
+    let widest = rows.iter().map(filled).max()?;
+    let at = rows.iter().position(|row| filled(row) > 1 && (filled(row) > 2 || 2 * filled(row) >= widest))?;
     let head = &rows[at];
     let body: Vec<&Vec<Field>> = rows[at + 1..].iter().filter(|row| !row.is_empty()).collect();
     let width = head.len();
@@ -161,8 +166,10 @@ pub(super) fn lines(rows: &[Vec<Field>]) -> Option<Lines<'_>> {
         let group = own.or_else(|| group_of_cut(label)).or(group);
         list.push(Row { group, name: name.join(" "), label, cells, unit });
     }
-    let titles = rows[..at].iter().flatten().chain(&head[..labels]).filter(|field| !field.is_blank()).collect();
-    Some(Lines { heads: &head[labels..], rows: list, labels: all, titles, definitions: Vec::new() })
+    let positions = head[..labels].iter().rfind(|field| group_of(field.trimmed()).0 == Some(Group::Positions));
+    let is_title = |field: &&Field| !field.is_blank() && positions.is_none_or(|own| !std::ptr::eq(own, *field));
+    let titles = rows[..at].iter().flatten().chain(&head[..labels]).filter(is_title).collect();
+    Some(Lines { heads: &head[labels..], rows: list, labels: all, positions, titles, definitions: Vec::new() })
 }
 
 impl Lines<'_> {
@@ -192,8 +199,12 @@ impl Lines<'_> {
     pub(super) fn units(&self, settings: &mut Settings, problems: &mut Problems) {
         let mut of = |group: Group| {
             let of_group = |label: &&&Field| group_of(&label.text).0 == Some(group);
-            let mut found =
-                self.labels.iter().filter(of_group).filter_map(|label| Some((*label, unit_of_label(label)?)));
+            let mut found = self
+                .labels
+                .iter()
+                .chain(&self.positions)
+                .filter(of_group)
+                .filter_map(|label| Some((*label, unit_of_label(label)?)));
             let first = found.next()?;
             if let Some((label, unit)) = found.find(|(_, unit)| *unit != first.1) {
                 let message = format!("'{}' and '{}' state different units", first.0.trimmed(), label.trimmed());

@@ -96,20 +96,27 @@ fn sentences(text: &str) -> Vec<&str> {
 /// Main dimensions with their lengths \[m\] in a text: `Lpp 100 m, B = 16 m`. Bare numbers and single letters count behind a
 /// sign alone, and a bare length may be any.
 pub(in crate::exchange::table) fn dimensions(text: &str) -> Vec<(String, f64)> {
-    let parts = || text.split(';').flat_map(|part| part.split(", ")).flat_map(|part| part.split(" x "));
-    // A letter with a unit is a dimension beside another that is named: `Lpp 120 m, B 18 m, T 7 m`.
-    let is_list = parts().filter(|part| is_named_length(part)).count() > 1;
+    let parts = || {
+        text.split(';')
+            .flat_map(|part| part.split(", "))
+            .flat_map(|part| part.split(" x "))
+            .flat_map(|part| part.split(" / "))
+    };
+    // A letter with a unit is a dimension beside another that is named: `Lpp 120 m, B 18 m, T 7 m`; of three names bare
+    // numbers are such too.
+    let is_list = parts().filter(|part| named_length(part) == Some(true)).count() > 1;
+    let is_long = parts().filter(|part| named_length(part).is_some()).count() > 2;
     let dimension = |part: &str| {
         let at = part.find(|c: char| c.is_ascii_digit())?;
         let (key, value) = (part[..at].trim(), part[at..].trim().trim_end_matches('.'));
         let name = key.trim_end_matches([':', '=', ' ']);
         let has_sign = key.ends_with([':', '=']);
         let length = match plain_number(value) {
-            Some(number) => Some(number).filter(|_| has_sign),
+            Some(number) => Some(number).filter(|_| has_sign || is_long),
             None => parse_length(value).ok(),
         };
         let is_name = slot(&mut StatedParticulars::default(), name).is_some()
-            && (has_sign || is_list || name.chars().count() > 1)
+            && (has_sign || is_list || is_long || name.chars().count() > 1)
             && !matches!(name.to_lowercase().as_str(), "l" | "length");
         let length = length.filter(|length| is_name && *length > 0.0 && *length < 1e5)?;
         Some((name.to_owned(), length))
@@ -117,13 +124,12 @@ pub(in crate::exchange::table) fn dimensions(text: &str) -> Vec<(String, f64)> {
     parts().filter_map(dimension).collect()
 }
 
-/// Whether a part of a text is the name of a main dimension and a length with its unit.
-fn is_named_length(part: &str) -> bool {
-    let Some(at) = part.find(|c: char| c.is_ascii_digit()) else { return false };
+/// Whether the length has a unit in a part of a text that is the name of a main dimension and a length; none of others.
+fn named_length(part: &str) -> Option<bool> {
+    let at = part.find(|c: char| c.is_ascii_digit())?;
     let (name, value) = (part[..at].trim().trim_end_matches([':', '=', ' ']), part[at..].trim().trim_end_matches('.'));
-    slot(&mut StatedParticulars::default(), name).is_some()
-        && plain_number(value).is_none()
-        && parse_length(value).is_ok()
+    slot(&mut StatedParticulars::default(), name)?;
+    if plain_number(value).is_some() { Some(false) } else { parse_length(value).is_ok().then_some(true) }
 }
 
 /// Words of a text: runs of letters and digits with decimal points.

@@ -153,7 +153,7 @@ pub(super) const REMARKS: [Explanation; 43] = [
     Explanation {
         code: "W335",
         title: "Unusual value",
-        cause: "A value is read although it is unusual: a fraction above 1, or a half-breadth slightly below 0.",
+        cause: "A value is read although it is unusual: a fraction above 1, a half-breadth slightly below 0, or an offset alone among zeros.",
         example: "`9` for `0.9` in a table of fractions.",
         remedy: "Look at the value. A decimal point may be missing.",
     },
