@@ -60,7 +60,7 @@ fn a_spacing_does_not_multiply_positions() {
     let text = table("", "", &stations, &["0", "1.5", "3", "4.5", "6", "7.5", "9"], 1.0);
     let read = read(&text, "[table]\nwaterline_spacing = 1.5\nstation_spacing = 6\n").unwrap();
     assert!(near(extents(&read.table), [120.0, 9.0]), "{:?}", extents(&read.table));
-    assert!(read.notes.iter().any(|p| p.code == "W320" && p.message.contains("waterline_spacing")));
+    assert!(read.notes.iter().any(|p| p.code == "W332" && p.message.contains("waterline_spacing")));
 }
 
 /// Bare whole numbers beside numbered stations, or above a base line, may be numbers.

@@ -56,16 +56,22 @@ pub(super) fn spacing(block: &Block, heads: &[Position], reader: &mut TableReade
 /// The spacing that the conventions state, where numbers count it; none, with a warning, where they are so far apart already.
 fn counted(block: &Block, heads: &[Position], spacing: f64, noun: &str, reader: &mut TableReader<'_>) -> Option<f64> {
     let written = |(head, field): (&Position, &Field)| !head.named || is_decimal(field.trimmed());
-    let are_positions = heads.iter().zip(&block.heads).all(written) && are_apart(heads, spacing, reader.units.z);
-    if are_positions {
-        let message = format!(
-            "{noun}s are {} m apart as they are written: {noun}_spacing does not multiply them",
-            metres(spacing)
-        );
+    let has_unit = has_unit(block, reader.settings) && !heads.iter().any(|head| head.named);
+    let are_apart = heads.iter().zip(&block.heads).all(written) && are_apart(heads, spacing, reader.units.z);
+    let are_positions = has_unit || are_apart;
+    if are_positions && heads.iter().any(|head| plain(*head).is_some()) {
+        let message = format!("{noun}_spacing {} m is not used: {noun}s stand at their positions", metres(spacing));
         let remedy = format!("Take {noun}_spacing away, or name the {noun}s by their numbers");
-        reader.problems.warning("W320", FilePosition::FILE, message, &remedy);
+        reader.problems.warning("W332", FilePosition::FILE, message, &remedy);
     }
     Some(spacing).filter(|_| !are_positions)
+}
+
+/// Whether a unit of heights is stated.
+fn has_unit(block: &Block, settings: &Settings) -> bool {
+    let corner = Corner::of(block.corner.trimmed());
+    let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
+    settings.z_units.is_some() || corner.unit.is_some() && of_heights
 }
 
 /// Whether most plain numbers are a spacing other than 1 apart \[m\], so that they are positions and no numbers.
@@ -93,9 +99,7 @@ fn warn_of_counts(block: &Block, heads: &[Position], reader: &mut TableReader<'_
     if !by_one || numbers.len() < LEAST_WHOLE || is_written || !(from_base || beside_numbers) {
         return;
     }
-    let corner = Corner::of(block.corner.trimmed());
-    let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
-    if reader.settings.z_units.is_some() || corner.unit.is_some() && of_heights {
+    if has_unit(block, reader.settings) {
         return;
     }
     let [first, .., last] = block.heads.as_slice() else { return };
@@ -115,9 +119,7 @@ const LEAST_WHOLE: usize = 4;
 /// Whether the waterlines have numbers, as WL 0, WL 1/2, WL 1, WL 2, and nothing says how far apart they are; where words do (`are_spaced`), bare numbers are such too. What is written
 /// with a decimal sign or with a unit is a height.
 fn are_numbered(block: &Block, heads: &[Position], settings: &Settings, are_spaced: bool) -> bool {
-    let corner = Corner::of(block.corner.trimmed());
-    let of_heights = corner.rows.is_none_or(|axis| !axis.is_station()) || corner.columns.is_some();
-    if settings.z_units.is_some() || corner.unit.is_some() && of_heights {
+    if has_unit(block, settings) {
         return false;
     }
     let named = heads.iter().filter(|head| head.named).count();
