@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use loftsman::internals::fairing::outcome::Turns;
+use loftsman::internals::fairing::change::Turns;
 use loftsman::internals::hull::{Cut, Hull};
 use loftsman::internals::report::{FairJob, FairOutputs, fair_outputs, fair_page, read_fair};
 use serde_json::Value;
@@ -185,7 +185,7 @@ fn targets_other_than_the_table_s_are_had_by_a_smooth_move() {
     outputs.verdict().unwrap();
     let outcome = &outputs.outcome;
     let turns =
-        |of: fn(&loftsman::internals::fairing::outcome::Turns) -> usize| outcome.turns.iter().map(of).sum::<usize>();
+        |of: fn(&loftsman::internals::fairing::change::Turns) -> usize| outcome.turns.iter().map(of).sum::<usize>();
     let (before, after) = (turns(|turns| turns.before), turns(|turns| turns.after));
     // 305 inflections and 8.5 times the energy where the readings stay where they are.
     assert!(after < before, "{before} > {after}");

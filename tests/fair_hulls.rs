@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use loftsman::internals::fairing::outcome::Turns;
+use loftsman::internals::fairing::change::Turns;
 use loftsman::internals::fairing::strength::Fairness;
 use loftsman::internals::qp::Status;
 use loftsman::internals::report::{fair_page, fair_summary};

@@ -33,8 +33,8 @@ const TANGENTS: usize = 12;
 const ROUNDS: usize = 40;
 /// Most rows of a round for each row that is in the program.
 const LEAST_ADDED: usize = 120;
-/// Most iterations of a program from one start: what has a solution takes half as many.
-const ITERATIONS: usize = 50;
+/// Most iterations of a program from one start: what has a solution takes a third of them.
+const ITERATIONS: usize = 100;
 /// Largest violation of rows that a program without a proof may leave.
 const MOST_VIOLATED: f64 = 1e-6;
 /// Optimum over (B/2)^2 that a duality gap is divided by at least.

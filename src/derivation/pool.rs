@@ -1,24 +1,20 @@
 //! What the half-breadths of a daughter keep to, as rows over its net: the centreplane, the breadth, the order of sections and
 //! waterlines, and the signs of curvature of the parent.
 //!
-//! A line of the net on which the parent bends one way throughout bends that way on the daughter: what it bends the other way is
-//! none that shows on a drawing, as where a curve runs into a straight line, and no more than that stays. On others the sign is kept
+//! A line of the net on which the parent bends one way throughout bends that way on the daughter. On others the sign is kept
 //! where it is definite. Curvature is kappa = (m D^2 y - m' D y) / (m^2 + (D y)^2)^(3/2) along the station, or the waterline,
 //! through a point of the surface, with D the derivative along it, m = D z, or D x, and the metric of the parent: linear in
 //! the half-breadths on a fixed chart.
 
-use crate::fairing::inspect::Resolution;
 use crate::hull::Hull;
-use crate::spline::{BsplineSurface, MAX_DEGREE, length, minus};
+use crate::spline::{BsplineSurface, MAX_DEGREE};
 
 /// Points of a span in each direction at which signs are looked at.
 const PLACES: usize = 2;
 /// Part of the greatest curvature of a line from which a sign is definite.
 const DEFINITE: f64 = 0.03;
-/// The same, below which a place of a line bends no way.
+/// The same, where a line bends one way throughout.
 const FAINT: f64 = 1e-3;
-/// Part of what is seen on a drawing that a line may bend the other way and still bends one way throughout.
-const UNSEEN: f64 = 0.5;
 /// Part of the greatest curvature of a line by which a sign may be missed.
 const MISSED: f64 = 2e-4;
 /// Half-breadths are within this part of B of a limit that they stand on.
@@ -193,60 +189,25 @@ fn places(breakpoints: &[f64]) -> Vec<f64> {
     breakpoints.windows(2).flat_map(inside).collect()
 }
 
-/// A place on a line: where it is, and the curvature there.
-struct Sample {
-    place: f64,
-    point: [f64; 3],
-    value: f64,
-}
-
-/// By how much a line departs from its chord at most where it bends against `way` by more than `faint`, about: kappa s^2 / 8 over
-/// the length s from the place before to the place behind.
-fn against(line: &[Sample], way: f64, faint: f64) -> f64 {
-    let is_against = |k: usize| way * line[k].value < -faint;
-    let (mut most, mut k): (f64, usize) = (0.0, 0);
-    while k < line.len() {
-        if !is_against(k) {
-            k += 1;
-            continue;
-        }
-        let first = k;
-        while k < line.len() && is_against(k) {
-            k += 1;
-        }
-        let ends = first.saturating_sub(1)..k.min(line.len() - 1);
-        let long: f64 = ends.map(|i| length(minus(line[i + 1].point, line[i].point))).sum();
-        let sharpest = line[first..k].iter().map(|sample| sample.value.abs()).fold(0.0, f64::max);
-        most = most.max(sharpest * long * long / 8.0);
-    }
-    most
-}
-
 /// Signs along the lines of the net that are nearest to stations, or to waterlines.
 fn signs(parent: &Hull, start: &Hull, station: bool) -> Vec<Candidate> {
     let surface = parent.surface();
     let (us, vs) = (places(&surface.u().breakpoints()), places(&surface.v().breakpoints()));
     let (lines, on) = if station { (us, vs) } else { (vs, us) };
-    let unseen = UNSEEN * Resolution::for_length(parent.particulars().length_between_perpendiculars).tolerance();
     let mut list = Vec::new();
     for line in lines {
         let at = |place: f64| if station { [line, place] } else { [place, line] };
-        let sample = |&place: &f64| {
-            let [u, v] = at(place);
-            let bend = bend(surface, [u, v], station)?;
-            Some(Sample { place, point: surface.eval(u, v), value: bend.value })
-        };
-        let found: Vec<Sample> = on.iter().filter_map(sample).collect();
-        let most = found.iter().map(|sample| sample.value.abs()).fold(0.0, f64::max);
+        let found: Vec<(f64, f64)> =
+            on.iter().filter_map(|&place| bend(surface, at(place), station).map(|bend| (place, bend.value))).collect();
+        let most = found.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
         // A line that is straight to the eye over the whole ship has no sign.
         if most * parent.particulars().length_between_perpendiculars < 1e-6 {
             continue;
         }
-        let [outward, inward] = [1.0, -1.0].map(|way| against(&found, way, FAINT * most));
-        // A line that is straight to the eye has a way where it has one at all.
-        let one_way = outward.min(inward) < unseen && (outward.max(inward) >= unseen || outward.min(inward) <= 0.0);
-        let way = if outward <= inward { 1.0 } else { -1.0 };
-        for Sample { place, value, .. } in found {
+        let has = |way: f64| found.iter().any(|(_, value)| way * value > FAINT * most);
+        let one_way = has(1.0) != has(-1.0);
+        let way = if has(1.0) { 1.0 } else { -1.0 };
+        for (place, value) in found {
             let keeps = one_way || value.abs() >= DEFINITE * most;
             let sign = if one_way { way } else { value.signum() };
             let Some(bend) = bend(start.surface(), at(place), station).filter(|_| keeps) else { continue };
