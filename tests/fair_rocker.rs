@@ -1,7 +1,7 @@
 //! Hulls whose keel line has rocker or rake: yachts, tugs, trawlers.
 
-use loftsman::internals::fairing::job::Job;
 use loftsman::internals::fairing::change::Change;
+use loftsman::internals::fairing::job::Job;
 use loftsman::internals::hull::{Entry, OffsetTable};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -1,10 +1,10 @@
 //! Rules of a fairing for single lines and regions: each is kept where it says so, and its price is told.
 
 use loftsman::internals::fairing::bends::Line;
+use loftsman::internals::fairing::change::Change;
 use loftsman::internals::fairing::constraint::{Constraint, FixedLine, Rule, TangentPlace};
 use loftsman::internals::fairing::held::HeldRule;
 use loftsman::internals::fairing::job::{Holding, Job, Tolerance};
-use loftsman::internals::fairing::change::Change;
 use loftsman::internals::fairing::outcome::Outcome;
 use loftsman::internals::fairing::proposals::Accepted;
 use loftsman::internals::fairing::surface::with_half_breadths;

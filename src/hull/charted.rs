@@ -5,7 +5,7 @@
 //! where all of the lines u = constant is immersed, else of a relative error of about 1e-10.
 
 use super::form::Hull;
-use super::functional::{Arm, Moment};
+
 use super::immersion::{Immersion, UpperEnd};
 use crate::numeric::gauss_legendre;
 use crate::spline::MAX_DEGREE;
@@ -124,4 +124,21 @@ pub(super) fn waterplane_weights(hull: &Hull, draught: f64, arm: Arm, sink: &mut
             }
         }
     }
+}
+
+/// What a volume is multiplied by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Moment {
+    None,
+    Length,
+    Height,
+}
+
+/// What a waterplane area is multiplied by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Arm {
+    One,
+    Length,
+    /// The square of the half-breadth of the hull.
+    BreadthSquared,
 }

@@ -16,6 +16,7 @@
 
 use super::area::section_weights;
 use super::charted;
+use super::charted::{Arm, Moment};
 use super::form::Hull;
 use super::immersion::{Immersion, UpperEnd};
 use crate::numeric::gauss_legendre;
@@ -85,23 +86,6 @@ impl Functional {
             Self::VerticalMoment => volume_weights(hull, draught, Moment::Height, sink),
         }
     }
-}
-
-/// What a volume is multiplied by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Moment {
-    None,
-    Length,
-    Height,
-}
-
-/// What a waterplane area is multiplied by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Arm {
-    One,
-    Length,
-    /// The square of the half-breadth of the hull.
-    BreadthSquared,
 }
 
 /// A node in v: the basis functions first ..= first + q, z and the weight times z_v.

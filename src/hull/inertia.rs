@@ -5,8 +5,9 @@
 //! is a cubic form, so that I_T = (1/3) sum_k y_k dI_T/dy_k (Euler). Exact to rounding on level hulls, to about 1e-10
 //! on others.
 
+use super::charted::Arm;
 use super::form::Hull;
-use super::functional::{Arm, waterplane_weights};
+use super::functional::waterplane_weights;
 
 /// I_T \[m^4\] of the waterplane at `draught` \[m\], both sides; 0 where there is none.
 #[must_use]
