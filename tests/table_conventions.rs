@@ -149,28 +149,6 @@ fn titles_state_dimensions_and_breadths() {
     }
 }
 
-/// A keel of straight parts on stations that stand unevenly does not dip between them.
-#[test]
-fn keels_stay_within_their_heights() {
-    let xs = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 6.0, 9.0, 9.5, 10.0, 10.5, 11.0, 11.5, 12.0];
-    let keel = |x: f64| (0.8 * (3.0 - x) / 3.0).max(0.8 * (x - 9.0) / 3.0).max(0.0);
-    let row = |name: &str, of: &dyn Fn(f64) -> f64| {
-        format!("{name},{}", xs.iter().map(|x| format!("{:.3}", of(*x))).collect::<Vec<_>>().join(","))
-    };
-    let rows = [
-        row("Station (m)", &|x| x),
-        row("Sheer height", &|_| 1.6),
-        row("Chine height", &|x| keel(x) + 0.4),
-        row("Keel height", &keel),
-        row("Sheer half-breadth", &|_| 1.5),
-        row("Chine half-breadth", &|_| 1.2),
-        row("Keel half-breadth", &|_| 0.0),
-    ];
-    let table = read(&(rows.join("\n") + "\n"), "").unwrap_or_else(|list| panic!("{}", list[0])).table;
-    let hull = Hull::fit(&table, &FitMethod::Graded).unwrap_or_else(|error| panic!("{error}")).hull;
-    assert!(hull.bottom() > -0.017, "{}", hull.bottom());
-}
-
 #[test]
 fn tables_that_are_upside_down_or_have_a_lone_offset_are_warned_of() {
     let heads: Vec<(String, f64)> = columns(|z| z.to_string()).into_iter().map(|(name, z)| (name, 7.5 - z)).collect();

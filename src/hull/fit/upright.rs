@@ -57,10 +57,6 @@ const ROCKER: f64 = 0.05;
 /// A curve that leaves the range of its half-breadths by this part of the greatest one swings.
 const OVERSHOOT: f64 = 0.05;
 
-/// A keel, a chine or an upper edge that leaves the range of its heights at two neighbouring stations by this part of the depth
-/// swings, and is straight between them.
-const LEFT: f64 = 0.01;
-
 /// Heights nearer than this, in parts of the depth, are one height.
 const SLACK: f64 = 1e-9;
 
@@ -340,11 +336,6 @@ impl Levels {
                     }
                 }
             }
-            for (j, (control, z)) in control.iter().zip(&values).enumerate() {
-                let points = control.iter().map(|&z| [z]).collect();
-                let curve = BsplineCurve::new(knots.clone(), points)?;
-                found.extend(left(&curve, &length.sites, z, LEFT * size.depth).into_iter().map(|k| (j, k)));
-            }
             found.retain(|(line, k)| (1..last).contains(k) && !breaks[*line].contains(k));
             if found.is_empty() {
                 for j in 1..control.len() {
@@ -363,19 +354,6 @@ impl Levels {
             }
         }
     }
-}
-
-/// Stations on both sides of the spaces in which a line leaves the range of its two heights by more than `most`.
-fn left(curve: &BsplineCurve<1>, sites: &[f64], heights: &[f64], most: f64) -> Vec<usize> {
-    let mut found = Vec::new();
-    for k in 1..sites.len() {
-        let (low, high) = (heights[k - 1].min(heights[k]), heights[k - 1].max(heights[k]));
-        let at = |share: f64| curve.eval(sites[k - 1] + share * (sites[k] - sites[k - 1]))[0];
-        if [0.25, 0.5, 0.75].map(at).iter().any(|z| *z < low - most || *z > high + most) {
-            found.extend([k - 1, k]);
-        }
-    }
-    found
 }
 
 /// The net of x, y and z.
