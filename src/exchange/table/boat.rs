@@ -100,6 +100,7 @@ pub(super) fn read(
     };
     let largest = heads.iter().map(|(at, _)| width(*at)).fold(0.0, f64::max);
     let ends = [heads.first(), heads.last()].map(|head| head.map_or(0.0, |(at, _)| width(*at) / largest));
+    let largest = settings.units.unwrap_or(Notation::Metres).metres(largest);
     let breadths = Breadths { largest, ends, ..Breadths::default() };
     let origin = origin(settings, corner, &places, breadths, problems);
     let units = units(settings, corner, [Size::of_positions(places.iter()), y, z], origin.numbers, problems);
