@@ -421,7 +421,7 @@ impl ReadBody {
             let message = format!("{aside} loops that do not reach the centreplane are left out");
             problems.warning("W332", FilePosition::FILE, message, "");
         }
-        self.weigh(&sections, aside, &mut problems);
+        self.weigh(&sections, &mut problems);
         let Self { name, stated, notes, .. } = self;
         let body = Body { name, stated, sections, origin: XOrigin::AfterPerpendicular, unit: 1.0 };
         problems.decimals = 6;
@@ -436,13 +436,13 @@ impl ReadBody {
         }
     }
 
-    /// Compares the volume between the sections with that of the body, where this is closed, or where loops are left out.
-    fn weigh(&self, sections: &[Section], aside: usize, problems: &mut Problems) {
-        let Some(mesh) = self.meshes.last().filter(|mesh| aside > 0 || mesh.open_edges().is_empty()) else { return };
+    /// Compares the volume between the sections with that of the body, where this is closed.
+    fn weigh(&self, sections: &[Section], problems: &mut Problems) {
+        let Some(mesh) = self.meshes.last().filter(|mesh| mesh.open_edges().is_empty()) else { return };
         let area =
             |section: &Section| [section.x, 2.0 * section.branches.iter().map(|line| enclosed(line)).sum::<f64>()];
         let found = trapezoids(&sections.iter().map(area).collect::<Vec<_>>());
-        let volume = mesh.enclosed();
+        let volume = mesh.report().volume;
         let off = found / volume - 1.0;
         if off.abs() > SECTION_VOLUME {
             let message = format!(

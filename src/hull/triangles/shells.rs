@@ -36,14 +36,9 @@ pub struct InnerShells {
     pub touching: bool,
     /// Whether these are cut to the skin of the union. Otherwise what they share counts twice.
     pub united: bool,
-    /// Whether the skin of the union has holes that the shells do not have.
-    pub torn: bool,
     /// Shells, where there are too many to be looked at.
     pub unseen: usize,
 }
-
-/// What the openings of a closed skin come to by rounding, over its area, at most.
-const TORN: f64 = 1e-5;
 
 /// What an open sheet encloses with its openings covered, over the power 3/2 of its area.
 const FLAT: f64 = 1e-3;
@@ -115,7 +110,6 @@ impl TriangleMesh {
             });
             let united = Self::from_corners(pieces);
             let after = enclosed(united.corners());
-            found.torn = united.opening() > TORN && self.opening() <= TORN;
             found.touching = (before - after).abs() <= TOUCHING * after.abs();
             return (united, found);
         }
@@ -141,21 +135,6 @@ impl TriangleMesh {
         let size = |skin: &Skin| (0..3).map(|k| skin.bounds[1][k] - skin.bounds[0][k]).product::<f64>();
         skins.sort_by(|a, b| size(b).total_cmp(&size(a)));
         skins
-    }
-
-    /// What the sides enclose, to which a deck adds nothing \[m^3\].
-    #[must_use]
-    pub fn enclosed(&self) -> f64 {
-        enclosed(self.corners())
-    }
-
-    /// The sum of the area vectors of the triangles over their area, which is 0 for closed bodies.
-    fn opening(&self) -> f64 {
-        let sums = self.corners().fold(([0.0; 3], 0.0), |(sum, area), [a, b, c]| {
-            let own = cross(minus(b, a), minus(c, a));
-            ([0, 1, 2].map(|axis| sum[axis] + own[axis]), area + length(own))
-        });
-        length(sums.0) / sums.1.max(f64::MIN_POSITIVE)
     }
 
     /// Edges of an odd number of triangles, of which a closed body has none.

@@ -22,9 +22,6 @@ const LONG: f64 = 600.0;
 /// Points nearer to the centreplane than this part of the size of the body are on it.
 const ON_CENTREPLANE: f64 = 1e-6;
 
-/// Faces that enclose less than this part of the box around them are a sheet.
-const LEAST_VOLUME: f64 = 1e-3;
-
 /// What a file says of its body.
 pub(in super::super) struct Given {
     /// Its unit \[m\].
@@ -166,16 +163,6 @@ pub(in super::super) fn framed(
     if !at_surface {
         off_base([least[2], greatest[2]], settings, problems);
     }
-    let bulk: f64 = (0..3).map(|axis| greatest[axis] - least[axis]).product();
-    if meshes[0].enclosed().abs() <= LEAST_VOLUME * bulk {
-        let message = format!(
-            "{} in a body of {length:.3} m enclose no volume: a deck or another sheet alone",
-            counted(meshes[0].triangles.len(), "triangle")
-        );
-        let remedy = "Give the faces of the shell, or choose them with --parts";
-        problems.error("E354", FilePosition::FILE, message, remedy);
-        return meshes;
-    }
     // The pieces of a union are no conforming mesh.
     let open = if surfaces || united { Vec::new() } else { meshes[0].gaps() };
     if !surfaces
@@ -282,7 +269,7 @@ fn without_sheets(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> T
 /// A mesh without the shells inside others, and whether it is cut to the skin of a union; of nested meshes the first alone has
 /// problems to say.
 fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> (TriangleMesh, bool) {
-    let (mesh, InnerShells { inside, crossing, touching, united, torn, unseen }) =
+    let (mesh, InnerShells { inside, crossing, touching, united, unseen }) =
         std::mem::take(mesh).without_inner_shells();
     let Some(problems) = problems else { return (mesh, united) };
     if inside > 0 {
@@ -299,13 +286,7 @@ fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> (T
         );
         problems.warning("W351", FilePosition::FILE, message, "Unite the parts to one skin");
     }
-    if torn {
-        let message = format!(
-            "shells of {} reach into others, and the skin of their union has holes: the volume is not known",
-            counted(crossing, "triangle")
-        );
-        problems.error("E354", FilePosition::FILE, message, "Unite the shells to one skin");
-    } else if touching {
+    if touching {
         let message =
             format!("shells of {} touch others: what they touch with is no skin", counted(crossing, "triangle"));
         problems.warning("W320", FilePosition::FILE, message, "");

@@ -132,11 +132,3 @@ fn surfaces_that_would_need_too_many_triangles_are_not_built() {
     assert!(TriangleMesh::nested(&surface, 1e-3, 100_000).is_ok());
     assert!(TriangleMesh::nested(&surface, 1e-3, 0).unwrap_err() > 0);
 }
-
-#[test]
-fn a_deck_alone_is_no_body() {
-    let text = brick(|p| p);
-    let vertices = text.lines().filter(|line| line.starts_with('v')).collect::<Vec<_>>().join("\n");
-    let faults = body(&format!("{vertices}\nf 5 6 8 7\n"), "").unwrap_err();
-    assert!(notes(&faults).contains("E354") && notes(&faults).contains("enclose no volume"), "{}", notes(&faults));
-}

@@ -245,7 +245,6 @@ pub(super) fn fates(mesh: &TriangleMesh, skins: &[Skin]) -> Option<Vec<Fate>> {
         }
     }
     let neighbours = mesh.neighbours();
-    let meets = alone.clone();
     let mut of = vec![0; mesh.triangles.len()];
     skins.iter().enumerate().for_each(|(k, skin)| skin.triangles.iter().for_each(|&t| of[t] = k));
     for first in 0..fates.len() {
@@ -265,22 +264,9 @@ pub(super) fn fates(mesh: &TriangleMesh, skins: &[Skin]) -> Option<Vec<Fate>> {
             }
         }
         let corners = |t: usize| mesh.triangles[t].map(|v| mesh.vertices[v]);
-        // Beside triangles that meet another skin each is looked at where that is cheap: a contact finer than the rounding may
-        // have been missed, and both sides of it hang together.
-        let own = of[first];
-        let others: usize = (0..skins.len()).filter(|k| *k != own).map(|k| skins[k].closed.len()).sum();
-        let beside = part.iter().any(|&t| neighbours[t].iter().flatten().any(|(other, _)| meets[*other]));
-        if beside && union.work + 2 * part.len() * others <= MOST {
-            for &t in &part {
-                if !union.is_on_skin(own, &corners(t)) {
-                    fates[t] = Fate::Within;
-                }
-            }
-            continue;
-        }
         let large = |t: &usize| area(&corners(*t));
         let largest = part.iter().copied().max_by(|a, b| large(a).total_cmp(&large(b))).unwrap_or(first);
-        if !union.is_on_skin(own, &corners(largest)) {
+        if !union.is_on_skin(of[first], &corners(largest)) {
             part.iter().for_each(|&t| fates[t] = Fate::Within);
         }
     }
