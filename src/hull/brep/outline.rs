@@ -187,8 +187,15 @@ fn trace(
             points.extend((0..last).map(|k| (line[last - k], (edge, last - 1 - k))));
         }
     }
-    let alone = |k: usize| chart.preimage(samples.points[points[k].0], None);
-    let Some((start, first)) = (0..points.len()).map(|k| (k, alone(k))).find(|(_, found)| found.free.is_none()) else {
+    let search = |is_narrow: bool, k: usize, near: Option<[f64; 2]>| {
+        let point = samples.points[points[k].0];
+        if is_narrow { chart.preimage_on_narrow(point, near) } else { chart.preimage(point, near) }
+    };
+    let begin = |is_narrow: bool| {
+        let mut alone = (0..points.len()).map(|k| (k, search(is_narrow, k, None)));
+        alone.find(|(_, found)| found.free.is_none()).map(|found| (is_narrow, found))
+    };
+    let Some((is_narrow, (start, first))) = begin(false).or_else(|| begin(true)) else {
         return Err("its loop is a point");
     };
     let mut corners: Vec<Corner> = Vec::with_capacity(points.len() + 2);
@@ -197,7 +204,7 @@ fn trace(
     for step in 0..=points.len() {
         let k = (start + step) % points.len();
         let (id, part) = points[k];
-        let mut found = chart.preimage(samples.points[id], Some(near));
+        let mut found = search(is_narrow, k, Some(near));
         let lies = found.distance <= off;
         if !lies {
             return Err("its loops do not lie on its surface");
