@@ -489,3 +489,40 @@ fn contains(corners: &[Corner], [x, y]: [f64; 2]) -> bool {
     });
     crossings.count() % 2 == 1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{BrepEdge, SpaceCurve};
+    use super::*;
+
+    /// A bow 5 m high and 0.4 mm wide of a body of 60 m, from one side to the other.
+    #[test]
+    fn a_face_that_is_narrow_all_over_has_an_outline() {
+        let half = 2e-4;
+        let line = |origin: [f64; 3], along: [f64; 3]| SpaceCurve::Line { origin, along };
+        let up = [0.0, 0.0, 5.0];
+        let sides = [(line([60.0, -half, 0.0], up), [0.0, 1.0]), (line([60.0, half, 0.0], up), [0.0, 1.0])];
+        let vertices = [[60.0, -half, 0.0], [60.0, -half, 5.0], [60.0, half, 5.0], [60.0, half, 0.0]];
+        let edges: Vec<BrepEdge> = (0..4)
+            .map(|k| {
+                let ends = [k, (k + 1) % 4];
+                let curve = line(vertices[k], minus(vertices[ends[1]], vertices[k]));
+                BrepEdge::new(curve, ends, &vertices, true)
+            })
+            .collect();
+        let sites = vec![vec![0.0, 0.5, 1.0]; 4];
+        let mut samples = Samples::of(&vertices, &edges, &sites);
+        let surface = FaceSurface::Ruled { sides };
+        let face = BrepFace {
+            name: String::new(),
+            kind: String::new(),
+            surface: surface.clone(),
+            loops: vec![(0..4).map(|k| (k, true)).collect()],
+            left: None,
+            part: 0,
+        };
+        let outline = Outline::of(&face, &Chart::new(&surface, 60.0), &mut samples, 0.06).unwrap();
+        assert_eq!((outline.loops.len(), outline.loops[0].len()), (1, 8));
+        assert!((area(&outline.loops[0]).abs() - 2.0).abs() < 1e-6);
+    }
+}
