@@ -16,7 +16,7 @@ const NEARLY: f64 = 0.1;
 const MOVED: f64 = 1.5;
 
 /// Wells that have more than this part of what the outer skin encloses are named.
-const WELLS: f64 = 0.02;
+const WELLS: f64 = 0.1;
 
 /// Faces that enclose less than this part of the power 3/2 of their area are sheets.
 const NO_VOLUME: f64 = 1e-6;
