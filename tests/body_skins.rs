@@ -328,3 +328,43 @@ fn masts_and_houses_leave_a_hull_as_it_is() {
     let house = block([-3.0, -7.0, 6.0], [63.0, 7.0, 9.0]);
     displaces("wide-house", &[hull, house].concat(), 3.0, [1800.0, 600.0]);
 }
+
+/// A barge with walls 1 m thick about an open hold: the water may come in, and the message says so.
+#[test]
+fn a_hold_that_is_open_from_above_is_named() {
+    let [aft, bow, starboard, port, bottom, _] = sides(HULL, [[4, 8], [8, 4], [4, 40], [40, 4], [8, 40], [1, 1]]);
+    let hold = sides([[1.0, -4.0, 1.0], [59.0, 4.0, 6.0]], [[4, 8], [8, 4], [4, 40], [40, 4], [8, 40], [1, 1]]);
+    let hold = hold[..5].concat().into_iter().map(|[a, b, c]| [a, c, b]);
+    let corners =
+        |[low, high]: [[f64; 2]; 2]| [low, [high[0], low[1]], high, [low[0], high[1]]].map(|[x, y]| [x, y, 6.0]);
+    let (outer, inner) = (corners([[0.0, -5.0], [60.0, 5.0]]), corners([[1.0, -4.0], [59.0, 4.0]]));
+    let rim = (0..4).flat_map(|k| {
+        let n = (k + 1) % 4;
+        [[outer[k], outer[n], inner[n]], [outer[k], inner[n], inner[k]]]
+    });
+    let barge: Vec<Triangle> =
+        [aft, bow, starboard, port, bottom].concat().into_iter().chain(hold).chain(rim).collect();
+    let output = program(&["hydro", &written("hold", &barge).display().to_string(), "--draughts", "4"]);
+    let message = stderr(&output);
+    assert!(output.status.code() == Some(0) && message.contains("open from above have 64 %"), "{message}");
+}
+
+/// A slit of 20 mm all around the sides is no side that is missing; shells of no area are nothing.
+#[test]
+fn a_slit_around_the_hull_is_no_hole() {
+    let counts = [[6, 3], [3, 6], [3, 20], [20, 3], [6, 20], [20, 6]];
+    let lower = sides([HULL[0], [60.0, 5.0, 1.0]], counts);
+    let upper = sides([[0.0, -5.0, 1.02], HULL[1]], counts);
+    let hull = [&lower[..5], &upper[..4], &upper[5..]].concat().concat();
+    let row = row("slit", &hull, 3.0).unwrap();
+    assert!((row.displacement_volume / 1800.0 - 1.0).abs() < 1e-2, "{}", row.displacement_volume);
+    let line = |z: f64| -> Point { [70.0, 0.0, z] };
+    let edge = vec![[line(0.0), line(2.0), line(1.0)], [line(1.0), line(2.0), line(3.0)]];
+    let output = program(&[
+        "hydro",
+        &written("edge", &[block(HULL[0], HULL[1]), edge].concat()).display().to_string(),
+        "--draughts",
+        "3",
+    ]);
+    assert!(output.status.code() == Some(0) && !stderr(&output).contains("W320"), "{}", stderr(&output));
+}

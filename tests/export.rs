@@ -25,6 +25,11 @@ fn every_config_is_written_in_every_format_and_its_mesh_is_closed() {
         let exported = export(&hull, name, &ExportFormat::ALL, &settings).unwrap();
         assert_eq!(exported.files.len(), ExportFormat::ALL.len());
         assert!(exported.page.contains(", closed; "), "{name}: {}", exported.page);
+        // What tables and control nets hold is said.
+        let said =
+            |begin: &str, part: &str| exported.page.lines().any(|line| line.starts_with(begin) && line.contains(part));
+        assert!(said("offsets: ", "below the lowest and above the highest"), "{name}: {}", exported.page);
+        assert!(said("control net: ", "of the hull's"), "{name}: {}", exported.page);
         assert!(exported.files.iter().all(|file| !file.contents.is_empty()));
         // The same bytes again.
         assert_eq!(export(&hull, name, &ExportFormat::ALL, &settings).unwrap(), exported, "{name}");

@@ -135,6 +135,13 @@ impl TriangleMesh {
         [0, 1, 2].map(|k: usize| (second[k] / area - (first[k] / area).powi(2)).max(0.0).sqrt())
     }
 
+    /// The integral of y over the y of the area vectors \[m^3\], to which deck, bottom and transom add nothing, and the area
+    /// of the skin \[m^2\].
+    #[must_use]
+    pub fn enclosed_and_skin(&self) -> [f64; 2] {
+        [shells::enclosed(self.corners()), self.corners().map(triangle_area).sum()]
+    }
+
     /// Checks closure and measures.
     #[must_use]
     pub fn report(&self) -> MeshReport {

@@ -90,6 +90,33 @@ fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<RecordFau
     faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
 }
 
+/// The statements of a line, of which there are often all of the file: a word and those up to the next one that may follow it.
+/// Names may be any words but `facet`.
+fn statements<'a>(words: &'a [&'a str]) -> Vec<&'a [&'a str]> {
+    let following = |word: &str| -> &[&str] {
+        match word.to_ascii_lowercase().as_str() {
+            "solid" => &["facet", "endsolid"],
+            "facet" => &["outer"],
+            "outer" => &["vertex"],
+            "vertex" => &["vertex", "endloop"],
+            "endloop" => &["endfacet", "outer"],
+            "endfacet" => &["facet", "endsolid"],
+            "endsolid" => &["solid"],
+            _ => &[],
+        }
+    };
+    let mut found = Vec::new();
+    let mut from = 0;
+    while from < words.len() {
+        let next = following(words[from]);
+        let is_next = |word: &&str| next.iter().any(|other| word.eq_ignore_ascii_case(other));
+        let to = words[from + 1..].iter().position(is_next).map_or(words.len(), |at| from + 1 + at);
+        found.push(&words[from..to]);
+        from = to;
+    }
+    found
+}
+
 fn read_ascii(bytes: &[u8]) -> Result<Vec<(String, TriangleMesh)>, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
@@ -103,42 +130,36 @@ fn read_ascii(bytes: &[u8]) -> Result<Vec<(String, TriangleMesh)>, Vec<RecordFau
     }
     let (mut mesh, mut triangle) = (Polygons::default(), Vec::new());
     for (k, line) in unmarked(&text).lines().enumerate() {
-        let mut words = line.split_whitespace();
-        match words.next().map(str::to_ascii_lowercase).as_deref() {
-            Some("vertex") => {
-                let point: Vec<&str> = words.collect();
-                if let Some(point) = faults.point(k + 1, line, &point, 3) {
-                    triangle.push(point);
-                }
-            }
-            Some("outer") => triangle.clear(),
-            Some("endloop") => match triangle[..] {
-                [a, b, c] => {
-                    if !mesh.push([a, b, c], k + 1, &mut faults) {
-                        break;
+        for words in statements(&line.split_whitespace().collect::<Vec<_>>()) {
+            match words[0].to_ascii_lowercase().as_str() {
+                "vertex" => {
+                    if let Some(point) = faults.point(k + 1, &words.join(" "), &words[1..], 3) {
+                        triangle.push(point);
                     }
                 }
-                _ => faults.add(
-                    Some(k + 1),
-                    line,
-                    format!("a loop of {}, expected 3", counted(triangle.len(), "corner")),
-                ),
-            },
-            Some("solid") => {
-                let name: Vec<&str> = words.collect();
-                mesh.begin(&name.join(" "));
+                "outer" => triangle.clear(),
+                "endloop" => match triangle[..] {
+                    [a, b, c] => {
+                        if !mesh.push([a, b, c], k + 1, &mut faults) {
+                            return mesh.finish_parts(faults);
+                        }
+                    }
+                    _ => faults.add(
+                        Some(k + 1),
+                        &words.join(" "),
+                        format!("a loop of {}, expected 3", counted(triangle.len(), "corner")),
+                    ),
+                },
+                "solid" => mesh.begin(&words[1..].join(" ")),
+                "facet" | "endfacet" | "endsolid" => {}
+                _ => {
+                    let expected = "expected solid, facet, outer loop, vertex, endloop or their ends";
+                    faults.add(Some(k + 1), &words.join(" "), expected.to_owned());
+                }
             }
-            None | Some("facet" | "endfacet" | "endsolid") => {}
-            Some(_) => {
-                faults.add(
-                    Some(k + 1),
-                    line,
-                    "expected solid, facet, outer loop, vertex, endloop or their ends".to_owned(),
-                );
+            if faults.is_full() {
+                return mesh.finish_parts(faults);
             }
-        }
-        if faults.is_full() {
-            break;
         }
     }
     mesh.finish_parts(faults)
@@ -197,4 +218,21 @@ pub fn write_stl_ascii(mesh: &HullMesh) -> String {
         put(format!("endsolid {}", region.name()));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_ascii_files_may_be_broken_anywhere() {
+        let text = "solid outer hull\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n\
+                    endsolid outer hull\nsolid keel\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex 1 0 1\nvertex 0 1 1\n\
+                    endloop\nendfacet\nendsolid\n";
+        let parts = read_stl(text.as_bytes()).unwrap();
+        assert_eq!(parts.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["outer hull", "keel"]);
+        assert_eq!(read_stl(text.replace('\n', " ").as_bytes()).unwrap(), parts);
+        let broken = text.replace("vertex 1 0 0", "vertex 1 zero 0").replace('\n', " ");
+        assert_eq!(read_stl(broken.as_bytes()).unwrap_err()[0].found, "vertex 1 zero 0");
+    }
 }

@@ -436,13 +436,14 @@ impl ReadBody {
         }
     }
 
-    /// Compares the volume between the sections with that of the body, where this is closed.
+    /// Compares the volume between the sections with that of the body, to which an open deck adds nothing; not of surfaces
+    /// that may reach over each other.
     fn weigh(&self, sections: &[Section], problems: &mut Problems) {
-        let Some(mesh) = self.meshes.last().filter(|mesh| mesh.open_edges().is_empty()) else { return };
+        let Some(mesh) = self.meshes.last().filter(|_| !self.loose) else { return };
         let area =
             |section: &Section| [section.x, 2.0 * section.branches.iter().map(|line| enclosed(line)).sum::<f64>()];
         let found = trapezoids(&sections.iter().map(area).collect::<Vec<_>>());
-        let volume = mesh.report().volume;
+        let [volume, _] = mesh.enclosed_and_skin();
         let off = found / volume - 1.0;
         if off.abs() > SECTION_VOLUME {
             let message = format!(

@@ -152,12 +152,7 @@ fn read_any(name: &str, bytes: &[u8], sidecar: Vec<(&str, &str)>) -> Result<Read
     let mut problems = Problems::new(name);
     if let Some(format) = unsupported::format(name, bytes) {
         let message = format!("{format} is not read");
-        let remedy = if format == unsupported::DWG {
-            "Save it as DXF, with faces or with lines in space"
-        } else {
-            "Give a table of offsets, or sections, as CSV, XLSX or a text format of offsets"
-        };
-        problems.error("E300", FilePosition::FILE, message, remedy);
+        problems.error("E300", FilePosition::FILE, message, unsupported::remedy(format));
         return Err(problems.finish().err().unwrap_or_default());
     }
     let mut settings = Settings::default();

@@ -187,8 +187,15 @@ fn trace(
             points.extend((0..last).map(|k| (line[last - k], (edge, last - 1 - k))));
         }
     }
-    let alone = |k: usize| chart.preimage(samples.points[points[k].0], None);
-    let Some((start, first)) = (0..points.len()).map(|k| (k, alone(k))).find(|(_, found)| found.free.is_none()) else {
+    let search = |is_narrow: bool, k: usize, near: Option<[f64; 2]>| {
+        let point = samples.points[points[k].0];
+        if is_narrow { chart.preimage_on_narrow(point, near) } else { chart.preimage(point, near) }
+    };
+    let begin = |is_narrow: bool| {
+        let mut alone = (0..points.len()).map(|k| (k, search(is_narrow, k, None)));
+        alone.find(|(_, found)| found.free.is_none()).map(|found| (is_narrow, found))
+    };
+    let Some((is_narrow, (start, first))) = begin(false).or_else(|| begin(true)) else {
         return Err("its loop is a point");
     };
     let mut corners: Vec<Corner> = Vec::with_capacity(points.len() + 2);
@@ -197,7 +204,7 @@ fn trace(
     for step in 0..=points.len() {
         let k = (start + step) % points.len();
         let (id, part) = points[k];
-        let mut found = chart.preimage(samples.points[id], Some(near));
+        let mut found = search(is_narrow, k, Some(near));
         let lies = found.distance <= off;
         if !lies {
             return Err("its loops do not lie on its surface");
@@ -481,4 +488,41 @@ fn contains(corners: &[Corner], [x, y]: [f64; 2]) -> bool {
         (ay > y) != (by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
     });
     crossings.count() % 2 == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{BrepEdge, SpaceCurve};
+    use super::*;
+
+    /// A bow 5 m high and 0.4 mm wide of a body of 60 m, from one side to the other.
+    #[test]
+    fn a_face_that_is_narrow_all_over_has_an_outline() {
+        let half = 2e-4;
+        let line = |origin: [f64; 3], along: [f64; 3]| SpaceCurve::Line { origin, along };
+        let up = [0.0, 0.0, 5.0];
+        let sides = [(line([60.0, -half, 0.0], up), [0.0, 1.0]), (line([60.0, half, 0.0], up), [0.0, 1.0])];
+        let vertices = [[60.0, -half, 0.0], [60.0, -half, 5.0], [60.0, half, 5.0], [60.0, half, 0.0]];
+        let edges: Vec<BrepEdge> = (0..4)
+            .map(|k| {
+                let ends = [k, (k + 1) % 4];
+                let curve = line(vertices[k], minus(vertices[ends[1]], vertices[k]));
+                BrepEdge::new(curve, ends, &vertices, true)
+            })
+            .collect();
+        let sites = vec![vec![0.0, 0.5, 1.0]; 4];
+        let mut samples = Samples::of(&vertices, &edges, &sites);
+        let surface = FaceSurface::Ruled { sides };
+        let face = BrepFace {
+            name: String::new(),
+            kind: String::new(),
+            surface: surface.clone(),
+            loops: vec![(0..4).map(|k| (k, true)).collect()],
+            left: None,
+            part: 0,
+        };
+        let outline = Outline::of(&face, &Chart::new(&surface, 60.0), &mut samples, 0.06).unwrap();
+        assert_eq!((outline.loops.len(), outline.loops[0].len()), (1, 8));
+        assert!((area(&outline.loops[0]).abs() - 2.0).abs() < 1e-6);
+    }
 }

@@ -15,6 +15,9 @@ const ROUNDING: f64 = 1e-9;
 /// A line around a surface of this many times the lengths that are 0 is a pole.
 const POLE: f64 = 10.0;
 
+/// The part of that at which a surface that is so narrow everywhere is a point.
+const NARROW: f64 = 1e-4;
+
 /// Points of a surface from which searches begin, along each direction.
 const SEEDS: usize = 48;
 
@@ -375,6 +378,16 @@ impl<'a> Chart<'a> {
 
     /// Where a point lies; of several places the one near to `near`.
     pub(super) fn preimage(&self, point: [f64; 3], near: Option<[f64; 2]>) -> Preimage {
+        self.preimage_beside(point, near, POLE * self.slack)
+    }
+
+    /// The same on a surface that is narrow all over, where only rounding is a point.
+    pub(super) fn preimage_on_narrow(&self, point: [f64; 3], near: Option<[f64; 2]>) -> Preimage {
+        self.preimage_beside(point, near, NARROW * POLE * self.slack)
+    }
+
+    /// The same with a direction that is a point where it is not longer than this \[m\].
+    fn preimage_beside(&self, point: [f64; 3], near: Option<[f64; 2]>, pole: f64) -> Preimage {
         let found = self.anywhere(self.surface, point, near);
         let uv = [0, 1].map(|k| match (self.period[k], near) {
             (Some(period), Some(near)) => found[k] + ((near[k] - found[k]) / period).round() * period,
@@ -388,8 +401,7 @@ impl<'a> Chart<'a> {
         });
         let [place, du, dv] = self.tangents(uv);
         let widths = [0, 1].map(|k| self.period[k].or(self.domain[k].map(|[a, b]| b - a)));
-        let is_point =
-            |slope: [f64; 3], width: Option<f64>| width.is_some_and(|width| length(slope) * width <= POLE * self.slack);
+        let is_point = |slope: [f64; 3], width: Option<f64>| width.is_some_and(|width| length(slope) * width <= pole);
         let free = if is_point(du, widths[0]) {
             Some(0)
         } else if is_point(dv, widths[1]) {

@@ -6,19 +6,19 @@ pub(super) type Bounds = [[f64; 3]; 2];
 /// Things below a node that is not divided.
 const FEW: usize = 8;
 
-struct Node {
-    bounds: Bounds,
+pub(super) struct Node {
+    pub(super) bounds: Bounds,
     /// What is below it, in the order of the tree.
-    range: [usize; 2],
+    pub(super) range: [usize; 2],
     /// The second of its two nodes, of which the first follows it.
-    second: Option<usize>,
+    pub(super) second: Option<usize>,
 }
 
 /// A tree of boxes.
 pub(super) struct Boxes {
     boxes: Vec<Bounds>,
-    order: Vec<usize>,
-    nodes: Vec<Node>,
+    pub(super) order: Vec<usize>,
+    pub(super) nodes: Vec<Node>,
 }
 
 /// The box around points \[m\].

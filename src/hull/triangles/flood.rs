@@ -54,12 +54,14 @@ const WALL: u8 = u8::MAX;
 const DRY: u8 = u8::MAX - 1;
 
 /// Triangles that water does not reach.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DrySkin {
     /// Those of sheets inside that share edges with the skin.
     pub sheets: usize,
     /// Those of the inner skin of a hollow body.
     pub inner: usize,
+    /// What wells that are open from above hold, over what the body encloses without them; they stay as they are.
+    pub wells: f64,
 }
 
 /// What is beside a triangle.
@@ -322,11 +324,14 @@ impl TriangleMesh {
                 inner.extend(dry.iter().filter(|(_, depth)| *depth > 0).map(|(k, _)| *k));
             }
         }
-        if self.is_inner_skin(&inner) {
+        let [body, outer] = self.with_and_without(&inner);
+        if !inner.is_empty() && outer > HOLLOW * body.abs() {
             inner.iter().for_each(|&k| left_out[k] = true);
             found.inner = inner.len();
+        } else {
+            found.wells = (1.0 - body / outer).max(0.0);
         }
-        if found == DrySkin::default() {
+        if found.sheets + found.inner == 0 {
             return (self, found);
         }
         let mut out = left_out.into_iter();
@@ -335,16 +340,16 @@ impl TriangleMesh {
         (Self::from_corners(kept.into_iter()), found)
     }
 
-    /// Whether the body is one of plates, and these triangles are its inner skin ([`HOLLOW`]).
-    fn is_inner_skin(&self, inner: &[usize]) -> bool {
-        // The integral of y dA_y: what is open above adds nothing to it.
+    /// What the body encloses, and what it does without these triangles, its inner skin, which what is open above adds nothing
+    /// to \[m^3\].
+    fn with_and_without(&self, inner: &[usize]) -> [f64; 2] {
         let enclosed = |triangle: &[usize; 3]| {
             let [a, b, c] = triangle.map(|vertex| self.vertices[vertex]);
             cross(minus(b, a), minus(c, a))[1] * (a[1] + b[1] + c[1]) / 6.0
         };
         let body: f64 = self.triangles.iter().map(enclosed).sum();
         let within: f64 = inner.iter().map(|&k| enclosed(&self.triangles[k])).sum();
-        !inner.is_empty() && body - within > HOLLOW * body.abs()
+        [body, body - within]
     }
 
     /// Edges of three triangles and more that are no common edges of closed shells.

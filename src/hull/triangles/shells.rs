@@ -9,11 +9,12 @@
 //! tan(omega / 2) = a.(b x c) / (|a||b||c| + a.b |c| + b.c |a| + c.a |b|)
 //! ```
 
-use super::boxes::around;
+use super::boxes::{Bounds, around};
 use super::rims::{CLOSING, Rims};
 use super::{ONE, TriangleMesh, open_edges, triangle_area};
 
 mod union;
+mod winding;
 
 use crate::spline::{cross, dot, length, minus};
 use std::collections::{HashMap, HashSet};
@@ -25,8 +26,14 @@ const SHELLS: usize = 4096;
 /// What skins that only touch share, over what they enclose, at most.
 const TOUCHING: f64 = 1e-7;
 
+/// Shells have no area that is less than this part of the squared size of the body.
+const NO_AREA: f64 = 1e-12;
+
+/// What integrals over the skin of a union differ by at most, over what they are.
+const CLOSED: f64 = 1e-4;
+
 /// What shells of a mesh do inside others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InnerShells {
     /// Triangles of shells inside, which add nothing.
     pub inside: usize,
@@ -36,6 +43,10 @@ pub struct InnerShells {
     pub touching: bool,
     /// Whether these are cut to the skin of the union. Otherwise what they share counts twice.
     pub united: bool,
+    /// Whether the skin of their union was cut and is not closed.
+    pub torn: bool,
+    /// What all skins enclose together, each for itself \[m^3\]; 0 where none reach into others.
+    pub sum: f64,
     /// Shells, where there are too many to be looked at.
     pub unseen: usize,
 }
@@ -55,6 +66,10 @@ const WIDE: f64 = 0.02;
 /// An opening faces upward where this part of what covers it is level, and less than that part of it faces aside.
 const LEVEL: f64 = 0.5;
 const ASIDE: f64 = 0.02;
+
+/// The rims of a slit differ in their ends by this part of their size at most, and their areas by that part.
+const SLIT: f64 = 0.01;
+const SLIT_TURN: f64 = 0.05;
 
 /// Edges of an odd number of triangles, of which a closed body has none.
 fn odd_edges(triangles: impl Iterator<Item = [usize; 3]>) -> usize {
@@ -84,6 +99,7 @@ impl TriangleMesh {
         let counts = |skin: &Skin| skin.triangles.len();
         let Some(fates) = union::fates(&self, &skins) else {
             found.crossing = skins.iter().skip(1).map(counts).sum();
+            found.sum = enclosed(self.corners());
             return (self, found);
         };
         let (mut reaching, mut before) = (Vec::new(), 0.0);
@@ -110,7 +126,14 @@ impl TriangleMesh {
             });
             let united = Self::from_corners(pieces);
             let after = enclosed(united.corners());
+            found.sum = before;
             found.touching = (before - after).abs() <= TOUCHING * after.abs();
+            let are_closed = skins.iter().all(|skin| skin.closed.len() == counts(skin));
+            if are_closed && !(united.is_closed_by_integrals() && after <= (1.0 + CLOSED) * before) {
+                found.united = false;
+                found.torn = true;
+                return (self, found);
+            }
             return (united, found);
         }
         if found.inside > 0 {
@@ -118,6 +141,39 @@ impl TriangleMesh {
             self.triangles.retain(|_| kept.next().unwrap_or(true));
         }
         (self, found)
+    }
+
+    /// The mesh without shells whose triangles have no area, such as faces over the edge of a body that has no breadth there.
+    #[must_use]
+    pub fn without_shells_of_no_area(self) -> Self {
+        let Some([low, high]) = self.bounds() else { return self };
+        let least = NO_AREA * dot(minus(high, low), minus(high, low));
+        let shells = self.shells();
+        let area = |shell: &Vec<usize>| -> f64 {
+            shell.iter().map(|&t| triangle_area(self.triangles[t].map(|v| self.vertices[v]))).sum()
+        };
+        let counts: Vec<bool> = shells.iter().map(|shell| area(shell) > least).collect();
+        if counts.iter().all(|counts| *counts) { self } else { self.of_shells(&shells, &counts) }
+    }
+
+    /// Whether the integrals of x dA_x, y dA_y and z dA_z over the skin are one volume, and its vector of area is none. So it
+    /// is of a closed skin, also where its triangles do not meet edge to edge.
+    #[must_use]
+    pub fn is_closed_by_integrals(&self) -> bool {
+        let Some([low, high]) = self.bounds() else { return true };
+        let middle = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
+        let (mut skin, mut turn, mut volumes) = (0.0, [0.0; 3], [0.0; 3]);
+        for corners in self.corners() {
+            let [a, b, c] = corners.map(|corner| minus(corner, middle));
+            let area = cross(minus(b, a), minus(c, a)).map(|part| 0.5 * part);
+            skin += length(area);
+            for k in 0..3 {
+                turn[k] += area[k];
+                volumes[k] += area[k] * (a[k] + b[k] + c[k]) / 3.0;
+            }
+        }
+        let [least, greatest] = [f64::min, f64::max].map(|pick| volumes.into_iter().fold(volumes[0], pick));
+        length(turn) <= CLOSED * skin && greatest - least <= CLOSED * greatest.abs()
     }
 
     /// The skins that shells make together, with their openings covered, the largest first.
@@ -251,25 +307,40 @@ impl TriangleMesh {
         let extent = minus(greatest, least);
         let open = self.openings(ONE);
         let skin: f64 = self.corners().map(triangle_area).sum();
-        let hole = |edges: &Vec<usize>| {
-            let points = || edges.iter().flat_map(|&k| open[k]).map(|vertex| self.vertices[vertex]);
-            let bounds = around(points());
+        let turn = |edges: &[usize]| {
+            let middle = mean(edges.iter().map(|&k| self.vertices[open[k][0]]), edges.len());
+            edges.iter().map(|&k| open[k]).fold([0.0; 3], |sum, [p, q]| {
+                let area = cross(minus(self.vertices[q], middle), minus(self.vertices[p], middle));
+                [0, 1, 2].map(|axis| sum[axis] + area[axis])
+            })
+        };
+        let bounds = |edges: &[usize]| around(edges.iter().flat_map(|&k| open[k]).map(|vertex| self.vertices[vertex]));
+        let chains = chains(&open);
+        // A slit has two rims, which run around one place in opposite directions.
+        let rims: Vec<([f64; 3], Bounds)> = chains.iter().map(|edges| (turn(edges), bounds(edges))).collect();
+        let is_slit = |own: usize| {
+            let (turn, [low, high]) = rims[own];
+            let size = length(minus(high, low));
+            rims.iter().enumerate().any(|(k, (other, ends))| {
+                let off = length(minus(low, ends[0])).max(length(minus(high, ends[1])));
+                let rest = [0, 1, 2].map(|axis| turn[axis] + other[axis]);
+                k != own && off <= SLIT * size && length(rest) <= SLIT_TURN * length(turn)
+            })
+        };
+        let hole = |(own, edges): (usize, &Vec<usize>)| {
+            let (turn, bounds) = rims[own];
             let middle = mean(edges.iter().map(|&k| self.vertices[open[k][0]]), edges.len());
             let area: f64 = edges
                 .iter()
                 .map(|&k| triangle_area([self.vertices[open[k][0]], self.vertices[open[k][1]], middle]))
                 .sum();
-            let turn = edges.iter().map(|&k| open[k]).fold([0.0; 3], |sum, [p, q]| {
-                let area = cross(minus(self.vertices[q], middle), minus(self.vertices[p], middle));
-                [0, 1, 2].map(|axis| sum[axis] + area[axis])
-            });
             // With a transom that is missing too, a deck is open down to the keel.
             let is_deck = turn[2] > LEVEL * length(turn) && turn[1].abs() < ASIDE * length(turn);
             let is_long = bounds[1][0] - bounds[0][0] > LONG * extent[0];
             let is_low = bounds[0][2] - least[2] < LOW * extent[2];
-            (is_long && is_low && !is_deck && area > WIDE * skin).then_some((area / skin, bounds))
+            (is_long && is_low && !is_deck && area > WIDE * skin && !is_slit(own)).then_some((area / skin, bounds))
         };
-        chains(&open).iter().filter_map(hole).max_by(|a, b| a.0.total_cmp(&b.0))
+        chains.iter().enumerate().filter_map(hole).max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The shells, those with the largest boxes around them first.
@@ -306,7 +377,7 @@ impl TriangleMesh {
 }
 
 /// The integral of y over the y of the area vectors, which a deck adds nothing to \[m^3\].
-fn enclosed(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> f64 {
+pub(super) fn enclosed(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> f64 {
     triangles.map(|[a, b, c]| cross(minus(b, a), minus(c, a))[1] * (a[1] + b[1] + c[1]) / 6.0).sum()
 }
 
@@ -430,15 +501,19 @@ mod tests {
         let (mesh, found) = with(&[([0.0; 3], 1.0)]).without_inner_shells();
         assert_eq!((mesh, found), (brick(), InnerShells { inside: 12, ..InnerShells::default() }));
         // The two walls that they have in common are inside, and what others share of theirs.
-        let touching = InnerShells { crossing: 12, touching: true, united: true, ..InnerShells::default() };
+        let touching =
+            |sum: f64| InnerShells { crossing: 12, touching: true, united: true, sum, ..InnerShells::default() };
         for by in [[4.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]] {
             let (mesh, found) = with(&[(by, 1.0)]).without_inner_shells();
-            assert_eq!((mesh.triangles.len(), found), (20, touching), "{by:?}");
+            assert_eq!((mesh.triangles.len(), found), (20, touching(found.sum)), "{by:?}");
         }
         let (mesh, found) = with(&[([4.0, 0.5, 0.1], 1.0)]).without_inner_shells();
         let area = |mesh: &TriangleMesh| mesh.corners().map(triangle_area).sum::<f64>();
         let shared = 2.0 * 1.5 * 1.9;
-        assert!((area(&mesh) - 2.0 * area(&brick()) + shared).abs() < 1e-9 && found == touching, "{found:?}");
+        assert!(
+            (area(&mesh) - 2.0 * area(&brick()) + shared).abs() < 1e-9 && found == touching(found.sum),
+            "{found:?}"
+        );
     }
 
     #[test]

@@ -15,9 +15,9 @@ use crate::exchange::{
     write_vtk,
 };
 use crate::hull::{
-    Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, SharpCorner,
-    Solid, StationNumbers, StationOffsets, SubdivisionNet, TableForm, enclosed, floats_at, section_stations,
-    whole_volume,
+    Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region,
+    SectionalAreaCurve, SharpCorner, Solid, StationNumbers, StationOffsets, SubdivisionNet, TableForm, enclosed,
+    floats_at, section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::numeric::trapezoids;
@@ -113,6 +113,15 @@ const SECTION_VOLUME: f64 = 3e-3;
 const SECTIONS_OFF: &str =
     "W514 the volume between the sections is more than 0.3 % off that of the hull. Take a smaller --deviation";
 
+/// What the page says of offsets then.
+const OFFSETS_OFF: &str = "W514 the offsets leave out more than 0.3 % of the volume of the hull: its bottom or deck lies between waterlines. Take a \
+     format of sections or surfaces";
+
+/// What it says of a control net then, and faces and steps at which its subdivision ends.
+const NET_OFF: &str = "W514 the surface of the control net is more than 0.3 % off the volume of the hull. Take a format of surfaces or sections";
+const NET_FACES: usize = 20_000;
+const NET_STEPS: usize = 3;
+
 /// Corners of the body that the page names.
 const NAMED_CORNERS: usize = 4;
 
@@ -185,6 +194,32 @@ fn sections_lines(table: &OffsetTable, volume: f64) -> Vec<String> {
     lines
 }
 
+/// What half-breadths at waterlines are on the page: how many, and the volume of the hull below the lowest and above the
+/// highest of each station, which they do not hold.
+fn offsets_lines(table: &OffsetTable, hull: &Hull, volume: f64) -> Vec<String> {
+    let outside = |station: &StationOffsets| {
+        let held = table.waterlines.iter().zip(&station.half_breadths).filter(|(_, cell)| cell.value().is_some());
+        let held: Vec<f64> = held.map(|(z, _)| *z).collect();
+        let heights = [held[0], held[held.len() - 1], hull.top()];
+        let areas = SectionalAreaCurve::areas(hull, &heights, &[station.station.x]).remove(0);
+        [station.station.x, areas[0] + areas[2] - areas[1]]
+    };
+    let holding = |station: &&StationOffsets| station.half_breadths.iter().any(|cell| cell.value().is_some());
+    let areas: Vec<[f64; 2]> = table.stations.iter().filter(holding).map(outside).collect();
+    let left_out = trapezoids(&areas);
+    let share = left_out / volume;
+    let mut lines = vec![format!(
+        "offsets: {} at {}; below the lowest and above the highest of each: {left_out:.4e} m3, {:+.2e} of the hull's {volume:.6e} m3",
+        counted(areas.len(), "station"),
+        counted(table.waterlines.len(), "waterline"),
+        -share
+    )];
+    if share > SECTION_VOLUME {
+        lines.push(OFFSETS_OFF.to_owned());
+    }
+    lines
+}
+
 /// The panels and their line on the page.
 fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String), Failure> {
     let particulars = hull.particulars();
@@ -223,14 +258,22 @@ fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String),
     Ok((mesh, line))
 }
 
-/// The control net of a hull and its line on the page.
-fn subdivision(hull: &Hull, title: &str, deviation: f64) -> (String, String) {
+/// The control net of a hull and its lines on the page.
+fn subdivision(hull: &Hull, title: &str, deviation: f64, volume: f64) -> (String, Vec<String>) {
     let (net, reached) = SubdivisionNet::of_hull(hull, deviation);
-    let line = format!(
-        "control net: {} points, {} faces; its surface is within {reached:.2e} m of the hull, z from the base line",
+    let [coarse, fine] = net.meshes(NET_FACES, NET_STEPS).map(|mesh| mesh.enclosed_and_skin()[0]);
+    // What a mesh leaves the surface by falls by four with each step.
+    let written = (4.0 * fine - coarse) / 3.0;
+    let off = written / volume - 1.0;
+    let mut line = vec![format!(
+        "control net: {} points, {} faces; its surface is within {reached:.2e} m of the hull, z from the base line; volume \
+         {written:.6e} m3, {off:+.2e} of the hull's",
         net.points.len(),
         net.faces.len()
-    );
+    )];
+    if off.abs() > SECTION_VOLUME {
+        line.push(NET_OFF.to_owned());
+    }
     let stated = hull.particulars().into();
     (write_ftm(&SubdivisionProject { name: title.to_owned(), stated, unit: 1.0, net }), line)
 }
@@ -418,6 +461,11 @@ pub fn export(
         floats_at(hull, draught_of(hull, settings.draught, "the format")?)
             .map_err(|error| Failure::Usage(error.to_string()))?;
     }
+    let is_table =
+        |format: &ExportFormat| matches!(format, ExportFormat::Csv | ExportFormat::Xlsx | ExportFormat::Delftship);
+    if formats.iter().any(is_table) {
+        page.extend(offsets_lines(&OffsetTable::with_defaults(hull), hull, volume));
+    }
     for &format in formats {
         let file = format!("{name}{}", format.ending());
         let contents = match (format, &mesh, &solid) {
@@ -436,8 +484,8 @@ pub fn export(
                 write_delftship(&table).into_bytes()
             }
             (ExportFormat::Ftm, ..) => {
-                let (text, line) = subdivision(hull, title, deviation);
-                page.push(line);
+                let (text, lines) = subdivision(hull, title, deviation, volume);
+                page.extend(lines);
                 text.into_bytes()
             }
             (ExportFormat::Michlet, ..) => {

@@ -21,6 +21,10 @@ const FACE_DEVIATION: f64 = 3e-5;
 /// More triangles than this are made fewer by a deviation that is doubled.
 const ENOUGH: usize = 150_000;
 
+/// Volumes of nested meshes differ by at most so many deviations times the area of the skin, and this part of them.
+const NESTED: f64 = 4.0;
+const ROUNDED: f64 = 1e-4;
+
 /// Control points nearer to each other than this part of the size are one.
 const ALIKE: f64 = 1e-6;
 
@@ -217,7 +221,24 @@ fn in_frame(
 ) -> (Vec<TriangleMesh>, f64) {
     let deviation = deviation * given.metres(settings);
     problems.note(format!("within {deviation:.1e} m of them: {} triangles", nested[1].triangles.len()));
-    (framed(nested.to_vec(), settings, given, problems), deviation)
+    let meshes = framed(nested.to_vec(), settings, given, problems);
+    agree(&meshes, deviation, problems);
+    (meshes, deviation)
+}
+
+/// Refuses nested meshes of which parts were left out or united in one and not in the other: they enclose what differs by more
+/// than their deviation \[m\] over their skin.
+pub(super) fn agree(meshes: &[TriangleMesh], deviation: f64, problems: &mut Problems) {
+    let [coarse, fine] = meshes else { return };
+    let ([first, skin], [second, _]) = (coarse.enclosed_and_skin(), fine.enclosed_and_skin());
+    if problems.any_errors() || (first - second).abs() <= NESTED * deviation * skin + ROUNDED * second.abs() {
+        return;
+    }
+    let message = format!(
+        "two meshes over the same faces enclose {first:.4e} and {second:.4e} m3: what of them is skin is not told alike"
+    );
+    let remedy = "Give the outer skin alone, its parts united, or choose parts with --parts";
+    problems.error("E354", FilePosition::FILE, message, remedy);
 }
 
 /// The longest extent of the control points.

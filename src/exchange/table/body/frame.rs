@@ -15,6 +15,12 @@ const NEARLY: f64 = 0.1;
 /// Corners of one side of a body this many times as far from the centreplane as its inner edge belong on it.
 const MOVED: f64 = 1.5;
 
+/// Wells that have more than this part of what the outer skin encloses are named.
+const WELLS: f64 = 0.1;
+
+/// Faces that enclose less than this part of the power 3/2 of their area are sheets.
+const NO_VOLUME: f64 = 1e-6;
+
 /// Bodies are rarely shorter or longer than this \[m\].
 const SHORT: f64 = 2.0;
 const LONG: f64 = 600.0;
@@ -105,7 +111,7 @@ pub(in super::super) fn framed(
         let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
         *mesh = TriangleMesh::from_corners(corners.into_iter());
         if !surfaces {
-            *mesh = std::mem::take(mesh).welded();
+            *mesh = std::mem::take(mesh).welded().without_shells_of_no_area();
             let (single, doubles) = std::mem::take(mesh).without_doubles();
             *mesh = single;
             if doubles > 0 && k == 0 {
@@ -132,11 +138,17 @@ pub(in super::super) fn framed(
         if !surfaces {
             *mesh = without_dry_skin(mesh, if k == 0 { Some(&mut *problems) } else { None });
             *mesh = without_sheets(mesh, if k == 0 { Some(&mut *problems) } else { None });
-            let (single, is_united) = without_inner(mesh, if k == 0 { Some(&mut *problems) } else { None });
-            (*mesh, united) = (single, is_united);
+            let (single, is_united) = without_inner(mesh, k == 0, problems);
+            (*mesh, united) = (single, united || is_united);
         }
     }
     let Some([least, greatest]) = meshes[0].bounds() else { return meshes };
+    let [volume, skin] = meshes[0].enclosed_and_skin();
+    if volume.abs() <= NO_VOLUME * skin.powf(1.5) {
+        let message = format!("the faces enclose no volume: {volume:.1e} m3 inside {skin:.3e} m2");
+        let remedy = "Give the faces of the hull; of lines in space alone, without the faces, give the stations";
+        problems.error("E354", FilePosition::FILE, message, remedy);
+    }
     let length = greatest[0] - least[0];
     if !(0.01..=1e4).contains(&length) {
         let message = format!("the body is {length} m long");
@@ -233,7 +245,18 @@ fn stated([length, breadth]: [f64; 2], settings: &Settings, problems: &mut Probl
 /// A mesh without the sheets that share edges with its skin inside, and the inner skin of a hollow body, turned outward; of
 /// several meshes the first alone has problems to say.
 fn without_dry_skin(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> TriangleMesh {
-    let (mesh, DrySkin { sheets, inner }) = std::mem::take(mesh).without_dry_skin();
+    let (mesh, DrySkin { sheets, inner, wells }) = std::mem::take(mesh).without_dry_skin();
+    let mut problems = problems;
+    if wells > WELLS
+        && let Some(problems) = &mut problems
+    {
+        let message = format!(
+            "holds or wells that are open from above have {:.0} % of what the outer skin encloses: they count as open to the water",
+            100.0 * wells
+        );
+        let remedy = "Give the outer skin alone where they stay dry, or close them by a deck";
+        problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
     if sheets + inner == 0 {
         return mesh;
     }
@@ -267,11 +290,26 @@ fn without_sheets(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> T
 }
 
 /// A mesh without the shells inside others, and whether it is cut to the skin of a union; of nested meshes the first alone has
-/// problems to say.
-fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> (TriangleMesh, bool) {
-    let (mesh, InnerShells { inside, crossing, touching, united, unseen }) =
-        std::mem::take(mesh).without_inner_shells();
-    let Some(problems) = problems else { return (mesh, united) };
+/// warnings to say. What cannot be united counts twice, whichever of them it is.
+fn without_inner(mesh: &mut TriangleMesh, is_first: bool, problems: &mut Problems) -> (TriangleMesh, bool) {
+    let (mesh, found) = std::mem::take(mesh).without_inner_shells();
+    let InnerShells { inside, crossing, touching, united, torn, sum, unseen } = found;
+    if crossing > 0 && !united {
+        if !problems.any_errors() {
+            let why =
+                if torn { "the skin of their union does not close" } else { "there are too many for their union" };
+            let message = format!(
+                "shells of {} reach into others, and {why}: what they share would count twice in the {sum:.4e} m3 of all parts",
+                counted(crossing, "triangle")
+            );
+            let remedy = "Unite the shells to one skin, or choose parts that do not cross with --parts";
+            problems.error("E354", FilePosition::FILE, message, remedy);
+        }
+        return (mesh, united);
+    }
+    if !is_first {
+        return (mesh, united);
+    }
     if inside > 0 {
         let message = format!(
             "{} of shells inside the others left out: tanks, decks and bulkheads add nothing to the body",
@@ -290,16 +328,10 @@ fn without_inner(mesh: &mut TriangleMesh, problems: Option<&mut Problems>) -> (T
         let message =
             format!("shells of {} touch others: what they touch with is no skin", counted(crossing, "triangle"));
         problems.warning("W320", FilePosition::FILE, message, "");
-    } else if crossing > 0 && united {
+    } else if crossing > 0 {
         let message =
             format!("shells of {} reach into others: what they share counts once", counted(crossing, "triangle"));
         problems.warning("W351", FilePosition::FILE, message, "Unite the shells to one skin");
-    } else if crossing > 0 {
-        let message = format!(
-            "shells of {} reach into others, and there are too many for their union: what they share would count twice",
-            counted(crossing, "triangle")
-        );
-        problems.error("E354", FilePosition::FILE, message, "Unite the shells to one skin");
     }
     (mesh, united)
 }
@@ -434,7 +466,7 @@ fn found_axes(
     let is_half = least[across].abs().min(greatest[across].abs()) <= NEARLY * extent(across);
     if !symmetric(across) && !is_half {
         let message = format!(
-            "{} runs from {} to {}: the body is not symmetric about the centreplane, and is taken as it is",
+            "{} runs from {:.3} to {:.3} in the unit of the file: the body is not symmetric about the centreplane, and is taken as it is",
             names[across], least[across], greatest[across]
         );
         let remedy = "Say --axes (axes in the TOML beside it) where the axes are others";

@@ -132,3 +132,21 @@ fn surfaces_that_would_need_too_many_triangles_are_not_built() {
     assert!(TriangleMesh::nested(&surface, 1e-3, 100_000).is_ok());
     assert!(TriangleMesh::nested(&surface, 1e-3, 0).unwrap_err() > 0);
 }
+
+#[test]
+fn nested_meshes_that_enclose_different_volumes_are_refused() {
+    let mesh =
+        |scale: f64| read_body("a.obj", brick(|p| p.map(|c| scale * c)).as_bytes(), None).unwrap().unwrap().meshes;
+    for (scale, is_refused) in [(1.0, false), (1.00001, false), (1.01, true)] {
+        let mut problems = Problems::new("a.step");
+        cad::agree(&[mesh(1.0), mesh(scale)].concat(), 1e-3, &mut problems);
+        assert_eq!(problems.any_errors(), is_refused, "{scale}");
+    }
+}
+
+#[test]
+fn faces_that_enclose_nothing_are_refused() {
+    let deck = "v 0 -3 4\nv 40 -3 4\nv 40 3 4\nv 0 3 4\nf 1 2 3 4\n";
+    let list = body(deck, "").unwrap_err();
+    assert!(notes(&list).contains("E354") && notes(&list).contains("enclose no volume"), "{list:?}");
+}

@@ -7,7 +7,7 @@
 
 use super::super::TriangleMesh;
 use super::super::boxes::{Bounds, Boxes, around, widened};
-use super::solid_angle;
+use super::winding::Winding;
 use crate::spline::{cross, dot, length, minus};
 use std::f64::consts::PI;
 
@@ -20,8 +20,9 @@ const FLAT: f64 = 2.0 * BESIDE;
 /// Points are on a plane within this part of the size of the body.
 const ON: f64 = 1e-10;
 
-/// Most solid angles, and most pairs of pieces and triangles.
+/// Most solid angles; and how many of them a piece is worth that is looked at beside a triangle.
 const MOST: usize = 150_000_000;
+const PIECE: usize = 16;
 
 type Triangle = [[f64; 3]; 3];
 type Polygon = Vec<[f64; 3]>;
@@ -174,19 +175,18 @@ fn area(polygon: &[[f64; 3]]) -> f64 {
 
 struct Union<'a> {
     skins: &'a [Skin],
+    windings: Vec<Winding>,
     size: f64,
     work: usize,
 }
 
 impl Union<'_> {
     fn holds(&mut self, skin: usize, point: [f64; 3]) -> bool {
-        let Skin { closed, bounds: [low, high], .. } = &self.skins[skin];
+        let [low, high] = self.skins[skin].bounds;
         if (0..3).any(|k| point[k] < low[k] || point[k] > high[k]) {
             return false;
         }
-        self.work += closed.len();
-        let sum: f64 = closed.iter().map(|t| solid_angle(t.map(|corner| minus(corner, point)))).sum();
-        sum > 2.0 * PI
+        self.windings[skin].angle(point, &mut self.work) > 2.0 * PI
     }
 
     fn is_on_skin(&mut self, own: usize, polygon: &[[f64; 3]]) -> bool {
@@ -210,7 +210,8 @@ pub(super) fn fates(mesh: &TriangleMesh, skins: &[Skin]) -> Option<Vec<Fate>> {
     let all: Vec<(usize, Triangle)> =
         skins.iter().enumerate().flat_map(|(k, skin)| skin.closed.iter().map(move |t| (k, *t))).collect();
     let tree = Boxes::new(all.iter().map(|(_, t)| around(t.iter().copied())).collect());
-    let mut union = Union { skins, size, work: 0 };
+    let windings = skins.iter().map(|skin| Winding::of(&skin.closed)).collect();
+    let mut union = Union { skins, windings, size, work: 0 };
     let mut fates = vec![Fate::Kept; mesh.triangles.len()];
     let mut alone = vec![false; mesh.triangles.len()];
     for (own, skin) in skins.iter().enumerate() {
@@ -220,12 +221,13 @@ pub(super) fn fates(mesh: &TriangleMesh, skins: &[Skin]) -> Option<Vec<Fate>> {
             let cutters = near.into_iter().filter(|k| all[*k].0 != own).filter_map(|k| Cutter::new(all[k].1));
             let mut pieces: Vec<Polygon> = vec![corners.to_vec()];
             for cutter in cutters {
+                union.work += 1;
                 if cutter.contact(&corners, size) == Contact::None {
                     continue;
                 }
                 alone[t] = true;
                 let mut parts = Vec::with_capacity(pieces.len() + 1);
-                union.work += pieces.len();
+                union.work += PIECE * pieces.len();
                 pieces.into_iter().for_each(|piece| cutter.cut(piece, size, &mut parts));
                 parts.retain(|part| part.len() > 2 && area(part) > 0.0);
                 pieces = parts;
@@ -277,6 +279,7 @@ pub(super) fn fates(mesh: &TriangleMesh, skins: &[Skin]) -> Option<Vec<Fate>> {
 mod tests {
     use super::super::super::tests::brick;
     use super::super::TriangleMesh;
+    use super::PI;
 
     /// Volume of a brick with others, each moved and scaled about the origin, over that of the brick.
     fn share(others: &[([f64; 3], [f64; 3])]) -> f64 {
@@ -307,5 +310,36 @@ mod tests {
             let found = share(&[(by, scale)]);
             assert!((found - wanted).abs() < 1e-9, "{by:?} {scale:?}: {found} for {wanted}");
         }
+    }
+
+    /// A ball of many triangles with a block that holds half of it: no mesh of so many is left with what they share twice.
+    #[test]
+    fn a_skin_of_many_triangles_is_united() {
+        let (rows, columns) = (120, 240);
+        let at = |i: usize, j: usize| {
+            let (v, u) = (PI * i as f64 / rows as f64, 2.0 * PI * (j % columns) as f64 / columns as f64);
+            if i == 0 || i == rows { [0.0, 0.0, v.cos()] } else { [v.sin() * u.cos(), v.sin() * u.sin(), v.cos()] }
+        };
+        let cells = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
+        let ball: Vec<_> = cells
+            .flat_map(|(i, j)| {
+                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        let ball = TriangleMesh::from_corners(ball.into_iter());
+        let [low, high] = brick().bounds().unwrap();
+        // From x = 0.003 on, beyond the ball on all other sides.
+        let place = |corner: [f64; 3]| {
+            let share = |k: usize| (corner[k] - low[k]) / (high[k] - low[k]);
+            [0.003 + 2.0 * share(0), 4.0 * share(1) - 2.0, 4.0 * share(2) - 2.0]
+        };
+        let block = TriangleMesh::from_corners(brick().corners().map(|t| t.map(place)).collect::<Vec<_>>().into_iter());
+        let both: Vec<_> = ball.corners().chain(block.corners()).collect();
+        let (mesh, found) = TriangleMesh::from_corners(both.into_iter()).without_inner_shells();
+        assert!(found.united && !found.torn, "{found:?}");
+        let wanted = 32.0 + 0.5 * ball.report().volume + PI * 0.003;
+        let [volume, _] = mesh.enclosed_and_skin();
+        assert!((volume - wanted).abs() < 1e-4, "{volume} for {wanted}");
     }
 }

@@ -302,8 +302,8 @@ pub(super) const REMARKS: [Explanation; 43] = [
     Explanation {
         code: "W514",
         title: "Sections that leave volume out",
-        cause: "The volume between the written sections, with linear areas from one to the next, is more than 0.3 % off that \
-         of the hull.",
+        cause: "The volume between the written sections is more than 0.3 % off that of the hull. Or so much lies below the lowest and \
+         above the highest offsets.",
         example: "`volume 4.73 m3, -3.8e-01 of the hull's`.",
         remedy: "Take a smaller `--deviation`, or a format of surfaces.",
     },
