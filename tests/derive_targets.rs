@@ -66,7 +66,7 @@ fn areas_that_no_section_has_are_refused_with_numbers() {
         ("10,9\n40,9\n", 2, ["E421 --section-areas", "40.000 m"]),
         ("10,9\n14,900\n", 2, ["E421 --section-areas", "900"]),
         // C_M of 0.88 says what the area at midship is.
-        ("14,31.5\n", 4, ["E420 --section-areas A@14.000 31.500 m2 is out of reach: 28.4", "C_M 0.8800"]),
+        ("14,31.5\n", 4, ["E420 --section-areas A@14.000 31.500 m2 is out of reach: 28.5", "C_M 0.8800"]),
     ] {
         let file = folder.write("areas.csv", format!("x,area\n{rows}"));
         let (code, _, err) =

@@ -181,7 +181,7 @@ fn extreme(
             let gradient = slopes(&y)?;
             Some(gradient.iter().zip(y.iter().zip(&vertex)).map(|(g, (a, b))| way * g * (b - a)).sum::<f64>())
         };
-        let t = best_step(&slope);
+        let t = best_step(slope);
         let candidates = [t, 1.0].map(|t| (along(t), t));
         let Some((next, found)) = candidates
             .into_iter()

@@ -194,7 +194,7 @@ fn says_breadths(text: &str, is_header: bool) -> bool {
     let is_of_ship = |word: &&str| matches!(*word, "breadth" | "beam" | "width");
     // `Breadth offsets`, `Moulded breadth table`, `Beam at waterlines`, `Breadth at each waterline`.
     let of_lines = ["offsets", "table", "waterlines", "waterline", "stations", "station"];
-    if all.iter().any(|word| is_of_ship(&word)) && all.iter().any(|word| of_lines.contains(word)) {
+    if all.iter().any(is_of_ship) && all.iter().any(|word| of_lines.contains(word)) {
         return !all.contains(&"half") && !has_value(&lower) && side_of(text).is_none();
     }
     if all.iter().any(|word| matches!(*word, "breadths" | "widths" | "beams" | "breiten"))

@@ -113,23 +113,6 @@ fn volume(volume: f64) -> String {
     format!("{volume:.0$}", (3.0 - digits) as usize)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::hull::Marks;
-
-    #[test]
-    fn the_bulge_of_an_arc() {
-        let point = |k: usize| {
-            let angle = 0.5 * PI * f64::from(u32::try_from(k).unwrap()) / 12.0;
-            OutlinePoint { y: angle.sin(), z: 1.0 - angle.cos(), marks: Marks::default() }
-        };
-        let points: Vec<OutlinePoint> = (0..=12).map(point).collect();
-        let [area, bulge] = drawn(&points);
-        assert!((area + bulge - 0.25 * PI).abs() < 2e-3 * area && bulge > 2e-3, "{area} {bulge}");
-    }
-}
-
 /// Suspects of a table in one line, the most severe with its place; none without suspects.
 pub(in crate::report) fn suspects_line(table: &OffsetTable, found: &Suspects) -> Option<String> {
     let worst = found.suspects.first()?;
@@ -148,4 +131,21 @@ pub(in crate::report) fn suspects_line(table: &OffsetTable, found: &Suspects) ->
         lengths::length(form.notation, worst.value, 4),
         lengths::length(form.notation, worst.verdict.expected, 4)
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::Marks;
+
+    #[test]
+    fn the_bulge_of_an_arc() {
+        let point = |k: usize| {
+            let angle = 0.5 * PI * f64::from(u32::try_from(k).unwrap()) / 12.0;
+            OutlinePoint { y: angle.sin(), z: 1.0 - angle.cos(), marks: Marks::default() }
+        };
+        let points: Vec<OutlinePoint> = (0..=12).map(point).collect();
+        let [area, bulge] = drawn(&points);
+        assert!((area + bulge - 0.25 * PI).abs() < 2e-3 * area && bulge > 2e-3, "{area} {bulge}");
+    }
 }
