@@ -190,7 +190,8 @@ fn a_siding_is_no_open_bottom() {
         assert!(!table(&|f| vec![(siding, 0.0), (siding, 0.2), (siding + 0.8 * f, 0.5), (siding + 1.2 * f, 1.2)]));
     }
     assert!(table(&|f| vec![(0.5 * f, 0.3), (0.9 * f, 0.6), (1.2 * f, 1.2)]), "half of the bottom is not there");
-    assert!(table(&|f| vec![(1.2 * f, 0.0), (1.2 * f, 0.6), (1.2 * f, 1.2)]), "no bottom at all");
+    assert!(table(&|f| vec![(1.2 * f, 0.2), (1.2 * f, 0.6), (1.2 * f, 1.2)]), "no bottom at all");
+    assert!(!table(&|f| vec![(1.2 * f, 0.0), (1.2 * f, 0.6), (1.2 * f, 1.2)]), "a flat bottom on the base line");
 }
 
 /// A table of lines is written as it was read: the same rows, with the texts of the cells.

@@ -21,9 +21,10 @@ const FACE_DEVIATION: f64 = 3e-5;
 /// More triangles than this are made fewer by a deviation that is doubled.
 const ENOUGH: usize = 150_000;
 
-/// Volumes of nested meshes differ by at most so many deviations times the area of the skin, and this part of them.
+/// Volumes of nested meshes differ by at most so many deviations times the area of the skin, and this part of them: chords over few
+/// spans of a surface that bends sharply. What the meshes are extrapolated to is off by a third of it at most.
 const NESTED: f64 = 4.0;
-const ROUNDED: f64 = 1e-4;
+const ALIKE_VOLUMES: f64 = 5e-3;
 
 /// Control points nearer to each other than this part of the size are one.
 const ALIKE: f64 = 1e-6;
@@ -231,7 +232,7 @@ fn in_frame(
 pub(super) fn agree(meshes: &[TriangleMesh], deviation: f64, problems: &mut Problems) {
     let [coarse, fine] = meshes else { return };
     let ([first, skin], [second, _]) = (coarse.enclosed_and_skin(), fine.enclosed_and_skin());
-    if problems.any_errors() || (first - second).abs() <= NESTED * deviation * skin + ROUNDED * second.abs() {
+    if problems.any_errors() || (first - second).abs() <= NESTED * deviation * skin + ALIKE_VOLUMES * second.abs() {
         return;
     }
     let message = format!(
