@@ -93,7 +93,7 @@ pub(super) fn read(
     let (y, z) =
         (Size::of(of(Group::HalfBreadths), form.decimal_comma), Size::of(of(Group::Heights), form.decimal_comma));
     let places: Vec<Position> = heads.iter().map(|(_, position)| *position).collect();
-    let corner = corner(&lines, positions_row);
+    let corner = corner(&lines, positions_row, settings);
     let width = |at: usize| {
         let cells = of_breadths(&lines).filter_map(|row| row.cells.get(at));
         cells.filter_map(|field| length(field, form.decimal_comma)).fold(0.0, f64::max)
@@ -165,11 +165,13 @@ fn of_breadths<'l, 'g>(lines: &'l Lines<'g>) -> impl Iterator<Item = &'l Row<'g>
 }
 
 /// What the label of the positions of stations says: their unit, and from where they count.
-fn corner(lines: &Lines<'_>, positions_row: Option<&Row<'_>>) -> Corner {
+fn corner(lines: &Lines<'_>, positions_row: Option<&Row<'_>>, settings: &Settings) -> Corner {
     let label = positions_row.map(|row| row.label).or(lines.positions);
-    let Some(label) = label else { return Corner { rows: Some(Axis::Station), ..Corner::default() } };
-    let Corner { rows, unit, x_unit, from, aftward, .. } = Corner::of(label.trimmed());
-    let x_unit = x_unit.or(unit);
+    let said = label.map(|label| Corner::of(label.trimmed())).unwrap_or_default();
+    let Corner { rows, unit, x_unit, from, aftward, .. } = said;
+    // A unit that the conventions state for x is that of distances, unless they space numbers.
+    let stated = settings.x_units.filter(|_| settings.station_spacing.is_none());
+    let x_unit = x_unit.or(unit).or(stated);
     let are_distances = positions_row.is_some() || x_unit.is_some() || rows == Some(Axis::X);
     let rows = Some(if are_distances { Axis::X } else { Axis::Station });
     // A row of distances says itself which end is the stem.

@@ -169,7 +169,7 @@ pub(super) fn origin(
     let (low, high) = numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
     let named = heads.iter().filter(|p| p.named || matches!(p.axis, Some(Axis::Station | Axis::Frame))).count();
     let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
-    let own_unit = settings.x_units.or(corner.x_unit).or(corner.unit);
+    let own_unit = corner.x_unit.or(corner.unit);
     // A sentence counts where no key and no header says it.
     let said = settings.sentences.stations.as_ref().filter(|(scale, _)| {
         let is_open = settings.stations.is_none() && corner.from.is_none();
@@ -189,7 +189,6 @@ pub(super) fn origin(
     let corner = Corner { from: corner.from.or(end.map(|(from, _)| *from)), ..corner };
     let scale = stated.unwrap_or_else(|| {
         let are_numbers = match says {
-            _ if settings.x_units.is_some() && named == 0 => false,
             Some(Axis::Station) if own_unit.is_none() && are_distances(&numbers, settings) => {
                 let message = format!(
                     "stations {low} to {high} are taken as distances, and not as numbers: they are not what stations are \
