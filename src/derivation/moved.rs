@@ -1,12 +1,12 @@
 //! Lines at prescribed places: what lies at a height, or a position, of the scaled parent comes to another one.
 //!
-//! Each control point moves by d(z), or d(x), which is the move that is stated at the places that are, and between two of them
+//! Each control point moves by d(z), or d(x). At stated places d is the stated move; between two places it is
 //!
 //! ```text
 //! d = d_0 + (d_1 - d_0) q(s),   q = s^3 (10 - 15 s + 6 s^2),   s = (z - z_0) / (z_1 - z_0)
 //! ```
 //!
-//! so that the map z + d(z) is twice differentiable, level about each line, and rises as long as d_1 - d_0 > -(z_1 - z_0) / 1.875.
+//! The map z + d(z) is twice differentiable and level about each line. It rises as long as d_1 - d_0 > -(z_1 - z_0) / 1.875.
 //! Bottom, T and deck stay where nothing is stated there, and so do the ends and midship: T and midship only as far as the moves
 //! leave room. A line of the net at one height, as a level knuckle is or the edge of a transom at one x, moves exactly. A
 //! line that rises moves as its control points do.

@@ -125,11 +125,7 @@ pub(super) fn by_slenderness(length: f64, largest: f64) -> Option<(bool, String)
 pub(super) fn titles(rows: &[Vec<Field>], settings: &mut Settings, problems: &mut Problems) {
     let above = &rows[..rows.len() - from_header(rows).len()];
     let texts = || above.iter().flatten().filter(|field| !field.is_blank());
-    // A comma within a title parts it.
-    let whole = |row: &Vec<Field>| {
-        row.iter().map(Field::trimmed).filter(|text| !text.is_empty()).collect::<Vec<_>>().join(", ")
-    };
-    above.iter().for_each(|row| settings.prose(&whole(row)));
+    joined(texts()).iter().for_each(|line| settings.prose(line));
     for text in texts() {
         settings.prose(text.trimmed());
         settings.dimensions(text.trimmed(), problems);
@@ -289,7 +285,7 @@ pub(super) fn unit_of_text(text: &str) -> Option<Notation> {
 
 /// Units of breadths, of heights and of distances that one text states apart: `Half-breadths in mm, heights in m`,
 /// `Half-breadths [mm] on waterlines [m]`.
-pub(super) fn units_said(text: &str) -> [Option<Notation>; 3] {
+fn units_said(text: &str) -> [Option<Notation>; 3] {
     let lower = text.to_lowercase();
     let mut found = [None; 3];
     let mut kind = None;

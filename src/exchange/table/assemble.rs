@@ -145,10 +145,7 @@ impl<'a> TableReader<'a> {
             (true, _) => Coordinate::Length(0.0),
             (false, Some(draught)) => Coordinate::Length(draught),
             (false, None) => {
-                let number = |at: usize| match found.get(at)?.as_ref().ok()?.place {
-                    Coordinate::Number(number) => Some(number),
-                    _ => None,
-                };
+                let number = |at: usize| found.get(at)?.as_ref().ok()?.number();
                 let (before, after) = (at.checked_sub(1).and_then(number), number(at + 1));
                 let between = before.zip(after).map(|(before, after)| 0.5 * (before + after));
                 let beyond = before.zip(at.checked_sub(2).and_then(number)).map(|(near, far)| 2.0 * near - far);

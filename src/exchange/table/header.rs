@@ -57,6 +57,11 @@ pub(super) struct Position {
 }
 
 impl Position {
+    /// Its plain number; none of a length or of a perpendicular.
+    pub(super) fn number(&self) -> Option<f64> {
+        if let Coordinate::Number(number) = self.place { Some(number) } else { None }
+    }
+
     fn at(place: Coordinate, text: &str) -> Self {
         Self { place, axis: axis_of(text), named: false, end: From::end_of(text).or_else(|| From::of(text)) }
     }

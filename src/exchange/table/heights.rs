@@ -59,7 +59,7 @@ fn counted(block: &Block, heads: &[Position], spacing: f64, noun: &str, reader: 
     let has_unit = has_unit(block, reader.settings) && !heads.iter().any(|head| head.named);
     let are_apart = heads.iter().zip(&block.heads).all(written) && are_apart(heads, spacing, reader.units.z);
     let are_positions = has_unit || are_apart;
-    if are_positions && heads.iter().any(|head| plain(*head).is_some()) {
+    if are_positions && heads.iter().any(|head| head.number().is_some()) {
         let message = format!("{noun}_spacing {} m is not used: {noun}s stand at their positions", metres(spacing));
         let remedy = format!("Take {noun}_spacing away, or name the {noun}s by their numbers");
         reader.problems.warning("W332", FilePosition::FILE, message, &remedy);
@@ -76,7 +76,7 @@ fn has_unit(block: &Block, settings: &Settings) -> bool {
 
 /// Whether most plain numbers are a spacing other than 1 apart \[m\], so that they are positions and no numbers.
 fn are_apart(heads: &[Position], spacing: f64, unit: Notation) -> bool {
-    let numbers: Vec<f64> = heads.iter().filter_map(|head| plain(*head)).collect();
+    let numbers: Vec<f64> = heads.iter().filter_map(Position::number).collect();
     let near = |a: f64, b: f64| (a - b).abs() < 1e-3 * b.abs();
     let steps: Vec<f64> = numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let apart = steps.iter().filter(|step| near(unit.metres(**step), spacing)).count();
@@ -84,14 +84,9 @@ fn are_apart(heads: &[Position], spacing: f64, unit: Notation) -> bool {
     apart > by_one && 2 * apart >= steps.len()
 }
 
-/// The plain number of a header.
-fn plain(head: Position) -> Option<f64> {
-    if let Coordinate::Number(number) = head.place { Some(number) } else { None }
-}
-
 /// Says where heights follow each other in whole numbers beside stations that are numbered, or above a base line.
 fn warn_of_counts(block: &Block, heads: &[Position], reader: &mut TableReader<'_>) {
-    let numbers: Vec<f64> = heads.iter().filter_map(|head| plain(*head)).collect();
+    let numbers: Vec<f64> = heads.iter().filter_map(Position::number).collect();
     let by_one = numbers.windows(2).all(|pair| ((pair[1] - pair[0]).abs() - 1.0).abs() < 1e-9);
     let from_base = heads.iter().zip(&block.heads).any(|(head, field)| head.named && is_base_line(field.trimmed()));
     let beside_numbers = matches!(reader.form.origin, StationDatum::Numbers { .. });

@@ -468,18 +468,17 @@ fn distances(
 /// Waterlines that follow each other in whole numbers are heights, or numbers that the conventions space.
 fn waterlines(points: &mut [Point], columns: &Columns, settings: &Settings, problems: &mut Problems) {
     let by_name = columns.find(Column::Waterline).filter(|_| columns.find(Column::Z).is_none());
-    // A spacing that is stated counts heights that follow each other by one.
-    let by_count = columns.height().filter(|(_, named)| {
-        let steps = steps(points.iter().map(|point| &point.z), false);
-        let count = |(values, steps): &(Vec<f64>, Vec<f64>)| {
-            let by_one = steps.iter().filter(|step| (**step - 1.0).abs() < 1e-9).count();
-            2 * by_one > steps.len() && values.iter().all(|value| (4.0 * value).fract().abs() < 1e-9)
-        };
-        named.unit.or(settings.z_units).is_none()
-            && settings.waterline_spacing.is_some()
-            && steps.as_ref().is_some_and(count)
+    let Some((_, named)) = by_name.or(columns.height()).filter(|(_, named)| named.fraction.is_none()) else { return };
+    let heights = steps(points.iter().map(|point| &point.z), false);
+    let are_open = named.unit.or(settings.z_units).is_none();
+    let follow = heights.as_ref().is_some_and(|(values, steps)| {
+        let by_one = steps.iter().filter(|step| (*step - 1.0).abs() < 1e-9).count();
+        2 * by_one > steps.len() && values.iter().all(|value| (4.0 * value).fract().abs() < 1e-9)
     });
-    let Some((_, named)) = by_name.or(by_count).filter(|(_, named)| named.fraction.is_none()) else { return };
+    // A spacing that is stated counts heights that follow each other by one, whatever their name.
+    if by_name.is_none() && !(are_open && follow && settings.waterline_spacing.is_some()) {
+        return;
+    }
     if let Some(spacing) = settings.waterline_spacing {
         for field in points.iter_mut().map(|point| &mut point.z) {
             if let Some(value) = number(field, false) {
@@ -488,11 +487,8 @@ fn waterlines(points: &mut [Point], columns: &Columns, settings: &Settings, prob
         }
         return;
     }
-    let Some((values, steps)) = steps(points.iter().map(|point| &point.z), false) else { return };
-    let by_one = steps.iter().filter(|step| (*step - 1.0).abs() < 1e-9).count();
-    let are_quarters = values.iter().all(|value| (4.0 * value).fract().abs() < 1e-9);
-    let follow = 2 * by_one > steps.len() && are_quarters && values.len() > 2 && values[0].fract().abs() < 1e-9;
-    if follow && named.unit.or(settings.z_units).is_none() {
+    let Some((values, _)) = heights.filter(|_| follow && are_open) else { return };
+    if values.len() > 2 && values[0].fract().abs() < 1e-9 {
         let message = format!(
             "waterlines {} to {} may be numbers, and their spacing is not known: taken as heights",
             values[0],

@@ -80,11 +80,6 @@ impl Breadths {
     }
 }
 
-/// The plain number of a position.
-fn plain(position: &Position) -> Option<f64> {
-    if let Coordinate::Number(number) = position.place { Some(number) } else { None }
-}
-
 /// Positions in the order of the file, each once.
 fn distinct(heads: &[Position]) -> Vec<Position> {
     let mut found: Vec<Position> = Vec::new();
@@ -100,13 +95,13 @@ fn distinct(heads: &[Position]) -> Vec<Position> {
 /// neighbours, or beyond its only one.
 fn number_of(heads: &[Position], end: From) -> Option<f64> {
     let at = heads.iter().position(|head| head.end == Some(end))?;
-    if let Some(number) = plain(&heads[at]) {
+    if let Some(number) = heads[at].number() {
         return Some(number);
     }
     // A neighbour, and the one beyond it.
     let pair = |numbers: &mut dyn Iterator<Item = f64>| numbers.next().map(|near| (near, numbers.next()));
-    let before = pair(&mut heads[..at].iter().rev().filter_map(plain));
-    let after = pair(&mut heads[at + 1..].iter().filter_map(plain));
+    let before = pair(&mut heads[..at].iter().rev().filter_map(Position::number));
+    let after = pair(&mut heads[at + 1..].iter().filter_map(Position::number));
     let beyond = |(near, far): (f64, Option<f64>)| {
         let rises = near > far?;
         Some(if rises { (near + 1e-9).floor() + 1.0 } else { (near - 1e-9).ceil() - 1.0 })
@@ -129,17 +124,15 @@ fn shows_numbers(heads: &[Position], length: Option<f64>) -> bool {
     if !unwritten(Coordinate::ForePerpendicular) {
         return false;
     }
-    let mut numbers: Vec<f64> = heads.iter().filter_map(plain).collect();
+    let mut numbers: Vec<f64> = heads.iter().filter_map(Position::number).collect();
     numbers.sort_by(f64::total_cmp);
-    let mut steps: Vec<f64> = numbers.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    steps.sort_by(f64::total_cmp);
-    let Some(usual) = steps.get(steps.len() / 2) else { return false };
+    let Some(usual) = usual_step(&numbers) else { return false };
     match length {
         Some(length) => {
             let gap = numbers.iter().map(|number| (length - number).abs()).fold(f64::INFINITY, f64::min);
             gap > JUMP * usual && (fore - aft).abs() < length
         }
-        None => *usual <= 1.0 && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9),
+        None => usual <= 1.0 && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9),
     }
 }
 
@@ -165,7 +158,7 @@ pub(super) fn origin(
 ) -> Origin {
     let length = settings.stated.length_between_perpendiculars;
     let heads = distinct(heads);
-    let numbers: Vec<f64> = heads.iter().filter_map(plain).collect();
+    let numbers: Vec<f64> = heads.iter().filter_map(Position::number).collect();
     let (low, high) = numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
     let named = heads.iter().filter(|p| p.named || matches!(p.axis, Some(Axis::Station | Axis::Frame))).count();
     let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
@@ -458,10 +451,9 @@ fn begins_with_one([low, high]: [f64; 2]) -> bool {
 fn counts(numbers: &[f64], ends: [f64; 2]) -> bool {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let mut steps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    steps.sort_by(f64::total_cmp);
-    let usual_step = steps.get(steps.len() / 2).is_some_and(|step| (step - 1.0).abs() < 1e-9);
-    usual_step && usual(ends).is_some() && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9)
+    usual_step(&sorted).is_some_and(|step| (step - 1.0).abs() < 1e-9)
+        && usual(ends).is_some()
+        && numbers.iter().all(|number| (4.0 * number).fract().abs() < 1e-9)
 }
 
 /// The distance from one number to the next \[m\], perhaps as a sentence says it; `between` are the spaces between AP and FP,

@@ -56,7 +56,7 @@ impl Size {
     pub(super) fn of_positions<'p>(positions: impl Iterator<Item = &'p Position>) -> Self {
         let mut size = Self::default();
         for position in positions {
-            if let Coordinate::Number(value) = position.place {
+            if let Some(value) = position.number() {
                 size.largest = size.largest.max(value.abs());
                 size.plain += 1;
             }

@@ -1,6 +1,6 @@
 //! Rows that stand for several stations, as drawings have them in a parallel body: `4,5,6`, `4, 5 & 6`, `4-6`, `4 to 6`.
 
-use super::header::{Coordinate, is_orderly, position};
+use super::header::{is_orderly, position};
 use super::matrix::{Block, MatrixRow};
 use super::problem::{Field, Problems};
 
@@ -42,10 +42,7 @@ fn listed(text: &str) -> Option<Vec<u32>> {
 
 /// The plain number of a station.
 fn number(head: &Field, comma: bool) -> Option<f64> {
-    match position(head.trimmed(), comma).ok()?.place {
-        Coordinate::Number(number) => Some(number),
-        _ => None,
-    }
+    position(head.trimmed(), comma).ok()?.number()
 }
 
 /// Whether stations stand between those before and after them, one of which is a number at least.

@@ -49,9 +49,8 @@ pub enum TangentPlace {
     Station([f64; 2]),
 }
 
-/// Places in a span at which signs are asked for: with the ends of the range these leave second derivatives of cubics,
-/// which are straight in a span, no room for another sign, and slopes no more than a sixteenth of what they change by
-/// in it.
+/// Places in a span at which signs are asked for, besides the ends of the range. Second derivatives of cubics are straight in a
+/// span and have no room for another sign. Slopes have no more than a sixteenth of what they change by in it.
 pub(super) const PLACES: [f64; 5] = [0.001, 0.25, 0.5, 0.75, 0.999];
 
 /// The bends along a part of a line, its ends among them.

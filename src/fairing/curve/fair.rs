@@ -514,12 +514,12 @@ fn cheapest(z: &[f64], starts: &[usize], counts: &[usize], raw: &[usize]) -> Opt
     (0..counts.len()).filter(|&s| counts[s] < raw[s]).max_by(|&a, &b| gain(a).total_cmp(&gain(b)))
 }
 
-/// What it comes to; the wishes of the job are those that were had.
+/// What it comes to; the targets of the job are those that were met.
 pub(super) struct Within {
     pub(super) free: Solved,
     pub(super) status: FairStatus,
     pub(super) diagnosis: Option<Diagnosis>,
-    /// Whether wishes gave way.
+    /// Whether targets were relaxed.
     pub(super) nearest: bool,
     /// Whether no tolerance would do.
     pub(super) contradictory: bool,

@@ -96,40 +96,44 @@ fn sentences(text: &str) -> Vec<&str> {
 /// Main dimensions with their lengths \[m\] in a text: `Lpp 100 m, B = 16 m`. Bare numbers and single letters count behind a
 /// sign alone, and a bare length may be any.
 pub(in crate::exchange::table) fn dimensions(text: &str) -> Vec<(String, f64)> {
-    let parts = || {
-        text.split(';')
-            .flat_map(|part| part.split(", "))
-            .flat_map(|part| part.split(" x "))
-            .flat_map(|part| part.split(" / "))
-    };
+    let parts = text
+        .split(';')
+        .flat_map(|part| part.split(", "))
+        .flat_map(|part| part.split(" x "))
+        .flat_map(|part| part.split(" / "));
+    let found: Vec<NamedLength<'_>> = parts.filter_map(NamedLength::of).collect();
     // A letter with a unit is a dimension beside another that is named: `Lpp 120 m, B 18 m, T 7 m`; of three names bare
     // numbers are such too.
-    let is_list = parts().filter(|part| named_length(part) == Some(true)).count() > 1;
-    let is_long = parts().filter(|part| named_length(part).is_some()).count() > 2;
-    let dimension = |part: &str| {
+    let is_list = found.iter().filter(|part| part.has_unit).count() > 1;
+    let is_long = found.len() > 2;
+    let is_dimension = |part: &&NamedLength<'_>| {
+        let is_named = part.has_sign || is_long || part.has_unit && (is_list || part.name.chars().count() > 1);
+        let is_open = matches!(part.name.to_lowercase().as_str(), "l" | "length");
+        is_named && !is_open && part.length > 0.0 && part.length < 1e5
+    };
+    found.iter().filter(is_dimension).map(|part| (part.name.to_owned(), part.length)).collect()
+}
+
+/// A part of a text that is the name of a main dimension and a length.
+struct NamedLength<'t> {
+    name: &'t str,
+    /// A colon or a sign of equality stands between them.
+    has_sign: bool,
+    has_unit: bool,
+    /// In metres, or as the bare number.
+    length: f64,
+}
+
+impl<'t> NamedLength<'t> {
+    fn of(part: &'t str) -> Option<Self> {
         let at = part.find(|c: char| c.is_ascii_digit())?;
         let (key, value) = (part[..at].trim(), part[at..].trim().trim_end_matches('.'));
         let name = key.trim_end_matches([':', '=', ' ']);
-        let has_sign = key.ends_with([':', '=']);
-        let length = match plain_number(value) {
-            Some(number) => Some(number).filter(|_| has_sign || is_long),
-            None => parse_length(value).ok(),
-        };
-        let is_name = slot(&mut StatedParticulars::default(), name).is_some()
-            && (has_sign || is_list || is_long || name.chars().count() > 1)
-            && !matches!(name.to_lowercase().as_str(), "l" | "length");
-        let length = length.filter(|length| is_name && *length > 0.0 && *length < 1e5)?;
-        Some((name.to_owned(), length))
-    };
-    parts().filter_map(dimension).collect()
-}
-
-/// Whether the length has a unit in a part of a text that is the name of a main dimension and a length; none of others.
-fn named_length(part: &str) -> Option<bool> {
-    let at = part.find(|c: char| c.is_ascii_digit())?;
-    let (name, value) = (part[..at].trim().trim_end_matches([':', '=', ' ']), part[at..].trim().trim_end_matches('.'));
-    slot(&mut StatedParticulars::default(), name)?;
-    if plain_number(value).is_some() { Some(false) } else { parse_length(value).is_ok().then_some(true) }
+        slot(&mut StatedParticulars::default(), name)?;
+        let bare = plain_number(value);
+        let length = bare.or_else(|| parse_length(value).ok())?;
+        Some(Self { name, has_sign: key.ends_with([':', '=']), has_unit: bare.is_none(), length })
+    }
 }
 
 /// Words of a text: runs of letters and digits with decimal points.
@@ -279,35 +283,17 @@ const FARTHEST: f64 = 40.0;
 const STATION_NAMES: [&str; 9] =
     ["station", "stations", "sta", "stn", "stns", "section", "sections", "ordinate", "ordinates"];
 
-/// Names of lines in sentences.
-const LINES: [&str; 19] = [
-    "station",
-    "stations",
-    "sta",
-    "stn",
-    "stns",
-    "section",
-    "sections",
-    "ordinate",
-    "ordinates",
-    "frame",
-    "frames",
-    "waterline",
-    "waterlines",
-    "wl",
-    "wls",
-    "buttock",
-    "buttocks",
-    "butt",
-    "butts",
-];
+/// Names of other lines in sentences.
+const OTHER_NAMES: [&str; 10] =
+    ["frame", "frames", "waterline", "waterlines", "wl", "wls", "buttock", "buttocks", "butt", "butts"];
 
 /// Words for the distance between lines.
 const SPACED: [&str; 7] = ["apart", "spacing", "spacings", "spaced", "interval", "intervals", "every"];
 
 /// The parts of a sentence that speak of lines of one kind: "Stations 6 m apart, waterlines 1.5 m apart".
 fn clauses(lower: &str) -> Vec<String> {
-    let names_lines = |text: &str| words(text).iter().any(|word| LINES.contains(word));
+    let names_lines =
+        |text: &str| words(text).iter().any(|word| STATION_NAMES.contains(word) || OTHER_NAMES.contains(word));
     let mut list: Vec<String> = Vec::new();
     for part in lower.split(';').flat_map(|part| part.split(" and ")).flat_map(|part| part.split(" / ")) {
         list.push(String::new());
@@ -349,15 +335,12 @@ pub(in super::super) fn spacing(lower: &str, names: &[&str]) -> Option<f64> {
             clause.split([' ', ':', '=', '(', ')', '\t']).filter(|word| !word.trim_matches(',').is_empty()).collect();
         let at = words.iter().position(|word| names.contains(&bare(word).as_str()))?;
         let is_between = words.windows(2).any(|pair| pair == ["distance", "between"]);
-        let spaced = words.iter().rposition(|word| SPACED.contains(&bare(word).as_str()));
-        if spaced.is_none() && !is_between {
+        let is_spacing = |word: &&str| SPACED.contains(&bare(word).as_str());
+        if !is_between && !words.iter().any(is_spacing) {
             return None;
         }
         let rest = &words[at + 1..];
-        let end = rest
-            .iter()
-            .rposition(|word| SPACED.contains(&bare(word).as_str()))
-            .filter(|end| rest[..*end].iter().any(|word| is_number(word)));
+        let end = rest.iter().rposition(is_spacing).filter(|end| rest[..*end].iter().any(|word| is_number(word)));
         first_length(&rest[..end.unwrap_or(rest.len())]).or_else(|| {
             let before = &words[..at];
             first_length(&before[before.iter().position(|word| is_number(word))?..])
