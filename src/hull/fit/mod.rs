@@ -10,6 +10,7 @@ mod estimate;
 mod features;
 mod floor;
 mod level;
+mod limits;
 mod method;
 mod methods;
 mod misfit;

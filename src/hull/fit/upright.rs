@@ -42,7 +42,7 @@ use crate::hull::offsets::OffsetTable;
 use crate::hull::particulars::PrincipalParticulars;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
 use girth::Band;
-use length::Across;
+use length::Course;
 pub(super) use length::Length;
 use lines::Line;
 pub(super) use lines::Size;
@@ -56,6 +56,9 @@ const ROCKER: f64 = 0.05;
 
 /// A curve that leaves the range of its half-breadths by this part of the greatest one swings.
 const OVERSHOOT: f64 = 0.05;
+
+/// Bulge between stations beyond what their neighbours allow, in parts of depth or breadth, that is left.
+const BULGE: f64 = 1e-3;
 
 /// Heights nearer than this, in parts of the depth, are one height.
 const SLACK: f64 = 1e-9;
@@ -150,7 +153,7 @@ impl Net {
         let length = Length::new(&x, ends::blunt(&profiles));
         let levels = Levels::new(&profiles, &lines, &length, size, &mut notes).map_err(spline)?;
         let bands = girth::bands(&profiles, &lines, slack).map_err(spline)?;
-        let surface = assemble(&profiles, &lines, &length, &levels, &bands, slack).map_err(spline)?;
+        let surface = assemble(&profiles, &lines, &length, &levels, &bands, size).map_err(spline)?;
         let mut net = Self { surface, profiles, lines, length, bands, notes, slack };
         net.note_overshoots(table);
         Ok(net)
@@ -251,9 +254,11 @@ pub(super) fn deck(surface: &BsplineSurface<3>, profiles: &[Profile]) -> Result<
     // At a blunt end two control points share x; the edge over x itself has none such.
     let x: Vec<f64> = profiles.iter().map(|p| p.x).collect();
     let plain = Length::new(&x, length::Blunt { aft: false, fore: false });
-    let knots = plain.knots(&[]).map_err(spline)?;
     let heights: Vec<f64> = profiles.iter().map(Profile::top).collect();
-    let z = plain.interpolation(&[], &[]).and_then(|across| across.control(&heights)).map_err(spline)?;
+    let bulge = BULGE * size(profiles).depth;
+    let course = plain.course(&[], &heights, f64::NEG_INFINITY, bulge).map_err(spline)?;
+    let knots = plain.knots([&course]).map_err(spline)?;
+    let z = plain.control(&course, &knots).map_err(spline)?;
     let points = plain.control_lengths(&knots).into_iter().zip(z).map(|(x, z)| [x, z]).collect();
     BsplineCurve::new(knots, points).map_err(spline)
 }
@@ -273,15 +278,11 @@ pub(super) fn size(profiles: &[Profile]) -> Size {
 struct Levels {
     /// Stations at which each of them is interrupted.
     breaks: Vec<Vec<usize>>,
-    /// All of these.
-    all: Vec<usize>,
-    knots: KnotVector,
-    /// Control heights of each over `knots`.
-    control: Vec<Vec<f64>>,
+    courses: Vec<Course>,
 }
 
 impl Levels {
-    /// Interpolates; where two lines would cross between stations, both are straight from station to station there.
+    /// Splines across the stations; where two lines would cross between stations, both are straight from station to station there.
     fn new(
         profiles: &[Profile],
         lines: &[Line],
@@ -314,14 +315,11 @@ impl Levels {
             own.dedup();
         }
         loop {
-            let mut all: Vec<usize> = breaks.iter().flatten().copied().filter(|k| (1..last).contains(k)).collect();
-            all.sort_unstable();
-            all.dedup();
-            let knots = length.knots(&all)?;
-            let mut control = Vec::new();
-            for (own, z) in breaks.iter().zip(&values) {
-                control.push(length.interpolation(own, &all)?.control(z)?);
-            }
+            let course =
+                |(own, z): (&Vec<usize>, &Vec<f64>)| length.course(own, z, f64::NEG_INFINITY, BULGE * size.depth);
+            let courses = breaks.iter().zip(&values).map(course).collect::<Result<Vec<_>, _>>()?;
+            let knots = length.knots(&courses)?;
+            let control = courses.iter().map(|course| length.control(course, &knots)).collect::<Result<Vec<_>, _>>()?;
             // A control height below the one of the line beneath it: lines would cross near its site.
             let dust = SLACK * size.depth;
             let mut found = Vec::new();
@@ -338,13 +336,7 @@ impl Levels {
             }
             found.retain(|(line, k)| (1..last).contains(k) && !breaks[*line].contains(k));
             if found.is_empty() {
-                for j in 1..control.len() {
-                    let (below, above) = control.split_at_mut(j);
-                    for (z, &floor) in above[0].iter_mut().zip(&below[j - 1]) {
-                        *z = z.max(floor);
-                    }
-                }
-                return Ok(Self { breaks, all, knots, control });
+                return Ok(Self { breaks, courses });
             }
             for (line, k) in found {
                 if !breaks[line].contains(&k) {
@@ -353,6 +345,19 @@ impl Levels {
                 }
             }
         }
+    }
+
+    /// Control heights of each line over `knots`, in order from below.
+    fn control(&self, length: &Length, knots: &KnotVector) -> Result<Vec<Vec<f64>>, SplineError> {
+        let mut control: Vec<Vec<f64>> = Vec::new();
+        for course in &self.courses {
+            let mut line = length.control(course, knots)?;
+            if let Some(below) = control.last() {
+                line.iter_mut().zip(below).for_each(|(z, &floor)| *z = z.max(floor));
+            }
+            control.push(line);
+        }
+        Ok(control)
     }
 }
 
@@ -363,36 +368,42 @@ fn assemble(
     length: &Length,
     levels: &Levels,
     bands: &[Band],
-    slack: f64,
+    size: Size,
 ) -> Result<BsplineSurface<3>, SplineError> {
+    let slack = SLACK * size.depth;
     let curves = (0..profiles.len())
         .map(|k| girth::station_curve(&profiles[k], lines, bands, k, slack))
         .collect::<Result<Vec<_>, _>>()?;
-    let x = length.control_lengths(&levels.knots);
-    let mut columns: Vec<Vec<[f64; 3]>> = Vec::new();
-    let mut knots: Vec<f64> = Vec::new();
-    for (j, band) in bands.iter().enumerate() {
-        let shares = band.control_shares();
-        let mut breaks: Vec<usize> = [&levels.breaks[j][..], &levels.breaks[j + 1]].concat();
-        breaks.sort_unstable();
-        breaks.dedup();
-        let inside = length.interpolation(&breaks, &levels.all)?;
+    // The courses of half-breadths, one a column, band by band.
+    let mut courses: Vec<Course> = Vec::new();
+    let shares: Vec<Vec<f64>> = bands.iter().map(Band::control_shares).collect();
+    for (j, shares) in shares.iter().enumerate() {
+        let mut inside: Vec<usize> = [&levels.breaks[j][..], &levels.breaks[j + 1]].concat();
+        inside.sort_unstable();
+        inside.dedup();
         // Keel and upper edge go with the only band beside them.
-        let edge = |line: usize| {
-            let outer = line == 0 || line == bands.len();
-            length.interpolation(if outer { &breaks } else { &levels.breaks[line] }, &levels.all)
-        };
-        let edges: [Across; 2] = [edge(j)?, edge(j + 1)?];
-        for (c, share) in shares.iter().enumerate().skip(usize::from(j > 0)) {
-            let across = match c {
-                0 => &edges[0],
-                c if c + 1 == shares.len() => &edges[1],
+        let edge = |line: usize| if line == 0 || line == bands.len() { &inside } else { &levels.breaks[line] };
+        for c in usize::from(j > 0)..shares.len() {
+            let breaks = match c {
+                0 => edge(j),
+                c if c + 1 == shares.len() => edge(j + 1),
                 _ => &inside,
             };
             let values: Vec<f64> = curves.iter().map(|curve| curve[j][c]).collect();
-            let y = across.control(&values)?;
+            courses.push(length.course(breaks, &values, 0.0, BULGE * size.breadth)?);
+        }
+    }
+    let along = length.knots(levels.courses.iter().chain(&courses))?;
+    let heights = levels.control(length, &along)?;
+    let x = length.control_lengths(&along);
+    let mut courses = courses.iter();
+    let mut columns: Vec<Vec<[f64; 3]>> = Vec::new();
+    let mut knots: Vec<f64> = Vec::new();
+    for (j, (band, shares)) in bands.iter().zip(&shares).enumerate() {
+        for ((c, share), course) in shares.iter().enumerate().skip(usize::from(j > 0)).zip(&mut courses) {
+            let y = length.control(course, &along)?;
             let column = (0..x.len()).map(|i| {
-                let (a, b) = (levels.control[j][i], levels.control[j + 1][i]);
+                let (a, b) = (heights[j][i], heights[j + 1][i]);
                 [x[i], y[i], if c + 1 == shares.len() { b } else { a + (b - a) * share }]
             });
             columns.push(column.collect());
@@ -403,5 +414,5 @@ fn assemble(
     }
     let v = KnotVector::new(length::DEGREE, knots)?;
     let points = (0..x.len()).flat_map(|i| columns.iter().map(move |column| column[i])).collect();
-    BsplineSurface::new(levels.knots.clone(), v, points)
+    BsplineSurface::new(along, v, points)
 }

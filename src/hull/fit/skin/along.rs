@@ -2,10 +2,10 @@
 //!
 //! Slopes at the sections are those of the C2 cubic spline with the "not a knot" end conditions (de Boor 2001, IV), so
 //! that the surface is C2 there wherever nothing stands against it; they are taken back where a cubic would leave the
-//! range of its neighbours ([`super::limits`]) and where heights would fall from column to column. Where the keel line
+//! range of its neighbours ([`limits`]) and where heights would fall from column to column. Where the keel line
 //! jumps the splines on both sides do not know of each other.
 
-use super::limits;
+use super::super::limits;
 use crate::spline::{Collocation, KnotVector, SplineError};
 
 /// Degree in both directions.

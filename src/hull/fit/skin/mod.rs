@@ -14,7 +14,6 @@
 //! nodes a section.
 
 mod along;
-mod limits;
 mod nodes;
 mod section;
 

@@ -9,7 +9,7 @@
 //! those with many (sections cut from meshes, digitised ones) the corners, and what else would be missed by more than a
 //! tolerance. Of all ways to put points on nodes in order, the one with the least sum of squared shifts is taken.
 
-use super::limits;
+use super::super::limits;
 use super::section::Section;
 
 /// Nodes over the greatest number of points of a section.
