@@ -135,7 +135,7 @@ fn expected(hull: &Hull, draught: f64, c: &Conventions, b: &Closed) -> Vec<(&'st
         ("AM", Some(b.midship)),
         ("AX", Some(b.largest)),
         ("XAX", Some(b.place)),
-        ("IE", Some(b.entrance)),
+        ("IE", Some(b.entrance).filter(|angle| *angle > 0.0)),
         ("IR", Some(b.run)),
         ("XPA", b.parallel.map(|ends| ends[0])),
         ("XPF", b.parallel.map(|ends| ends[1])),

@@ -15,7 +15,7 @@
 
 use super::node::{Node, node_at, nodes};
 use super::volume::{Body, count_along, count_up};
-use super::waterplane::{Waterplane, largest};
+use super::waterplane::{Waterplane, entrance_angle, largest};
 use crate::hull::{Hull, Immersion, Piece, UpperEnd, advance};
 use crate::numeric::{bracketed_root, gauss_legendre};
 use crate::spline::cross;
@@ -376,7 +376,12 @@ impl Plane {
             aft: x(aft.from),
             length: x(fore.to) - x(aft.from),
             breadth: 2.0 * breadth,
-            entrance: half_angle(hull, immersion, fore.to, fore.from),
+            entrance: entrance_angle(
+                |u| hull.surface().eval(u, immersion.end(u))[1].max(0.0),
+                |u| half_angle(hull, immersion, u, fore.from),
+                [fore.to, aft.from],
+                breadth,
+            ),
             run: half_angle(hull, immersion, aft.from, aft.to),
             ..Waterplane::default()
         }

@@ -372,7 +372,7 @@ pub const QUANTITIES: &[Quantity] = &[
         symbol: "i_E",
         name: "half angle of entrance",
         unit: "deg",
-        definition: "between waterline and centreplane at its fore end",
+        definition: "between waterline and centreplane at its fore end, behind the local shape of the stem; none of a square bow",
         decimals: 2,
         value: |row| row.half_angle_of_entrance,
     },

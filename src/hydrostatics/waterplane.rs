@@ -2,12 +2,22 @@
 //!
 //! Area 2 int y dx, its moments 2 int x y dx and 2 int x^2 y dx and the transverse second moment (2/3) int y^3 dx are
 //! integrals of piecewise polynomials in u, exact to rounding. Length and breadth are extents of the part where y > 0.
-//! The half angles of entrance and run are atan(|y_u| / |x_u|) at the ends; at a transom or a flat bow that of the side
-//! there.
+//! The half angles of entrance and run are atan(|y_u| / |x_u|) at the ends; at a transom that of the side there. The angle of
+//! entrance leaves out the local shape of the stem (ITTC 2017, Symbols and Terminology: i_E), and a bow that is cut off broad
+//! has none: see [`entrance_angle`].
 
 use crate::hull::{Hull, Immersion, Piece, UpperEnd};
 use crate::numeric::gauss_legendre;
 use crate::spline::{BsplineCurve, MAX_DEGREE};
+
+/// A bow is cut off, and has no angle of entrance, where its waterline ends with more than this part of its breadth.
+const SQUARE_BOW: f64 = 0.1;
+
+/// The local shape of a stem has less than this part of the breadth of its waterline.
+const LOCAL: f64 = 0.02;
+
+/// It turns by more than this \[deg\].
+const LOCAL_TURN: f64 = 30.0;
 
 /// The rule in u, the same for every draught: one entry a span.
 pub(super) struct Rule {
@@ -155,7 +165,12 @@ pub(super) fn waterplane(hull: &Hull, immersion: &Immersion, rule: &Rule) -> Wat
         aft: line.eval(aft.1)[0],
         length: line.eval(fore.1)[0] - line.eval(aft.1)[0],
         breadth,
-        entrance: half_angle(&line, fore),
+        entrance: entrance_angle(
+            |u| y(u).max(0.0),
+            |u| half_angle(&line, if u == fore.1 { fore } else { (line.knots().find_span(u), u) }),
+            [fore.1, aft.1],
+            0.5 * breadth,
+        ),
         run: half_angle(&line, aft),
     }
 }
@@ -184,6 +199,41 @@ pub(super) fn largest(y: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, from: 
     best
 }
 
+/// The half angle of entrance \[deg\] of a waterline of the given half-breadth \[m\] that goes from the fore end `ends[0]` to the
+/// aft end `ends[1]` of its parameter; none where it ends broader than [`SQUARE_BOW`].
+///
+/// Where the tangent at the end is more than [`LOCAL_TURN`] steeper than the one at which the waterline is [`LOCAL`] broad, the
+/// end is the local shape of the stem (a siding, a bar, a radius), and the angle is taken behind it.
+pub(super) fn entrance_angle(
+    y: impl Fn(f64) -> f64,
+    angle: impl Fn(f64) -> Option<f64>,
+    ends: [f64; 2],
+    half_breadth: f64,
+) -> Option<f64> {
+    const HALVINGS: i32 = 40;
+    let [fore, aft] = ends;
+    if y(fore) > SQUARE_BOW * half_breadth {
+        return None;
+    }
+    let at_end = angle(fore)?;
+    let at = |share: f64| fore + (aft - fore) * share;
+    let reaches = |share: f64| y(at(share)) >= LOCAL * half_breadth;
+    let Some(mut out) = (0..=HALVINGS).rev().map(|k| 0.5f64.powi(k)).find(|&share| reaches(share)) else {
+        return Some(at_end);
+    };
+    let mut within = 0.5 * out;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (within + out);
+        if reaches(middle) {
+            out = middle;
+        } else {
+            within = middle;
+        }
+    }
+    let behind = angle(at(out)).filter(|behind| at_end - behind > LOCAL_TURN);
+    Some(behind.unwrap_or(at_end))
+}
+
 /// Angle between the waterline and the centreplane at its end \[deg\]; where the first derivative vanishes, from the
 /// second.
 fn half_angle(line: &BsplineCurve<3>, (span, u): (usize, f64)) -> Option<f64> {
@@ -202,4 +252,31 @@ fn half_angle(line: &BsplineCurve<3>, (span, u): (usize, f64)) -> Option<f64> {
         }
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The angle of entrance of a waterline of 10 m half-breadth, by its half-breadth at a distance from its fore end, which
+    /// is at u = 1.
+    fn angle_of(y: impl Fn(f64) -> f64) -> Option<f64> {
+        let line = |u: f64| y(100.0 * (1.0 - u));
+        let slope = |u: f64| (line(u - 1e-9) - line(u)) / 1e-7;
+        entrance_angle(line, |u| Some(slope(u).atan().to_degrees()), [1.0, 0.0], 10.0)
+    }
+
+    #[test]
+    fn the_local_shape_of_a_stem_is_no_entrance() {
+        let wedge = 12f64.to_radians().tan();
+        let near =
+            |found: Option<f64>, angle: f64| assert!((found.unwrap() - angle).abs() < 0.05, "{found:?} for {angle}");
+        near(angle_of(|s| wedge * s), 12.0);
+        // A stem of 50 mm radius, a siding of 0.1 m at right angles, and a bow that is an ellipse throughout.
+        near(angle_of(|s| if s < 0.05 { (s * (0.1 - s)).max(0.0).sqrt() } else { 0.05 + wedge * (s - 0.05) }), 12.0);
+        near(angle_of(|s| (1e7 * s).min(0.1 + wedge * s)), 12.0);
+        near(angle_of(|s| (s * (100.0 - s)).max(0.0).sqrt() / 5.0), 90.0);
+        // A bow that is cut off square has none.
+        assert_eq!(angle_of(|s| 4.0 + 0.1 * s), None);
+    }
 }
