@@ -96,7 +96,8 @@ fn energies_are_positive_and_nets_stay_at_the_hull() {
         let path = case(name).display().to_string();
         let to = folder.join(name.replace(".csv", "")).display().to_string();
         let done = program(&[&["fair", &path, "-o", &to, "--no-figures", "--quiet"], options].concat());
-        if done.status.code() != Some(0) {
+        // Files are written where the hull is no fairer as well.
+        if !matches!(done.status.code(), Some(0 | 5)) {
             assert!(matches!(done.status.code(), Some(3 | 4)), "{name}: {}", stderr(&done));
             continue;
         }

@@ -304,6 +304,31 @@ fn sections_of_few_points_are_straight_and_others_are_weighed() {
 }
 
 #[test]
+fn lines_far_apart_are_warned_of() {
+    let barge = |xs: &[f64], heights: &[f64]| {
+        let heads: Vec<String> = heights.iter().map(f64::to_string).collect();
+        let mut text = format!("x [m] \\ z [m],{}\n", heads.join(","));
+        for &x in xs {
+            let along = (x.min(60.0 - x) / 20.0).min(1.0);
+            let cells: Vec<String> = heights.iter().map(|z| metres(5.0 * along * (z / 0.5).min(1.0))).collect();
+            writeln!(text, "{x},{}", cells.join(",")).unwrap();
+        }
+        text
+    };
+    let (few, all) = ([0.0, 20.0, 40.0, 60.0], (0..13).map(|k| 5.0 * f64::from(k)).collect::<Vec<_>>());
+    let dense = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
+    let between = |notes: &[String], lines: &str| {
+        notes.iter().any(|note| note.starts_with("W342") && note.contains(&format!("between the {lines} the hull")))
+    };
+    let notes = volume("stations.csv", &barge(&few, &dense), 3.0).1;
+    assert!(between(&notes, "stations") && !between(&notes, "waterlines"), "{notes:?}");
+    let (found, notes) = volume("dense.csv", &barge(&all, &dense), 3.0);
+    assert!(!between(&notes, "stations") && !between(&notes, "waterlines"), "{notes:?}");
+    let exact = 2.0 * 5.0 * 40.0 * (3.0 - 0.25);
+    assert!((found / exact - 1.0).abs() < 0.015, "{found} for {exact}");
+}
+
+#[test]
 fn bottoms_ends_and_suspects_that_change_the_volume() {
     let tanker = |x: f64, z: f64| half_breadth(x, 6.0) * (0.9 + 0.1 * z / 6.0);
     let table = |heights: &[f64], xs: &[f64], keel: bool, shift: f64| {

@@ -1,14 +1,20 @@
 //! What may be wrong with the hull of a table by more than one per cent of its volume.
 
 use crate::fairing::Suspects;
-use crate::hull::{Hull, OffsetTable, OutlinePoint, SectionalAreaCurve, StationOffsets, enclosed};
-use crate::numeric::trapezoids;
+use crate::hull::{Hull, OffsetTable, OutlinePoint, SectionalAreaCurve, StationOffsets, enclosed, keel_height};
+use crate::numeric::{gauss_legendre, trapezoids};
 use crate::report::words::lengths;
 use crate::units::{Notation, counted};
 use std::f64::consts::PI;
 
 /// Part of the volume from which a doubt is a warning.
 const SHARE: f64 = 0.01;
+
+/// Share of the volume between lines from which a doubt of their spacing is a warning.
+const SPACED: f64 = 0.03;
+
+/// Points between two stations at which sections are integrated.
+const SPACING_POINTS: usize = 4;
 
 /// Greatest turn between two chords that is of a curve \[rad\].
 const CURVED: f64 = 0.25 * PI;
@@ -105,6 +111,51 @@ pub(in crate::report) fn drawn_doubt(table: &OffsetTable, hull: &Hull) -> Option
             100.0 * off
         )
     })
+}
+
+/// How much more volume the hull has than straight lines from station to station, and at its stations than straight lines from
+/// offset to offset: a warning each from three per cent on. The surface through lines so far apart may be off by a third of
+/// that (Richardson 1911).
+pub(in crate::report) fn spacing_doubts(table: &OffsetTable, hull: &Hull) -> Vec<String> {
+    let height = hull.reference_height();
+    let x: Vec<f64> = table.stations.iter().map(|station| station.station.x).collect();
+    if x.len() < 2 {
+        return Vec::new();
+    }
+    let at_stations = SectionalAreaCurve::new(hull, height, &x).areas;
+    let along: Vec<[f64; 2]> = x.iter().zip(&at_stations).map(|(&x, &area)| [x, area]).collect();
+    let rule = gauss_legendre(SPACING_POINTS);
+    let inside: Vec<[f64; 2]> = x.windows(2).flat_map(|gap| rule.on(gap[0], gap[1])).map(|(x, w)| [x, w]).collect();
+    let positions: Vec<f64> = inside.iter().map(|[x, _]| *x).collect();
+    let areas = SectionalAreaCurve::new(hull, height, &positions).areas;
+    let whole: f64 = inside.iter().zip(areas).map(|([_, weight], area)| weight * area).sum();
+    let straight = trapezoids(&along);
+    let mut doubts = Vec::new();
+    let mut doubt = |lines: &str, where_to: &str, [found, straight]: [f64; 2]| {
+        let more = found / straight - 1.0;
+        if straight > 0.0 && more.abs() > SPACED {
+            doubts.push(format!(
+                "W342 between the {lines} the hull encloses {:.1} % {} than straight lines, {} m3 below {height:.3} m: its shape there \
+                 is not known. Give {lines} {where_to}",
+                100.0 * more.abs(),
+                if more > 0.0 { "more" } else { "less" },
+                volume(straight)
+            ));
+        }
+    };
+    doubt("stations", "where the hull bends", [whole, straight]);
+    let polygon = |x: f64| {
+        let keel = keel_height(hull, x)?;
+        let heights = table.waterlines.iter().copied().filter(|z| (keel..height).contains(z));
+        let heights = [keel].into_iter().chain(heights).chain([height]);
+        let points: Vec<[f64; 2]> = heights.filter_map(|z| Some([z, hull.half_breadth(x, z)?])).collect();
+        Some([x, 2.0 * trapezoids(&points)])
+    };
+    if table.stations.iter().all(|station| station.outlines.is_empty()) {
+        let polygons: Vec<[f64; 2]> = x.iter().map(|&x| polygon(x).unwrap_or([x, 0.0])).collect();
+        doubt("waterlines", "where the sections bend", [straight, trapezoids(&polygons)]);
+    }
+    doubts
 }
 
 /// A volume \[m3\] with four digits at least: `1.278`, `70.99`, `123456`.

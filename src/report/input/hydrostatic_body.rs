@@ -149,7 +149,11 @@ impl HydrostaticBody {
             (!found.is_empty()).then(|| format!("{} at {:.3} m", found.join(", "), row.draught))
         };
         let warnings = table.rows.iter().find_map(above).map(|found| {
-            let dimensions = "Lpp, B and T are less than those of the body, or are measured elsewhere. State them";
+            let dimensions = if matches!(self.body, BodyShape::Hull(_)) && conventions.assumed.breadth {
+                "The surface is broader or longer between the lines of the table than on them: give more lines where the hull bends"
+            } else {
+                "Lpp, B and T are less than those of the body, or are measured elsewhere. State them"
+            };
             let message = format!("coefficients are above 1: {found}");
             Diagnostic { severity: Severity::Warning, ..problem("W353", &self.path, message, dimensions) }
         });

@@ -20,7 +20,7 @@ use crate::hull::{
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Given, Hydrostatics, default_draughts};
 use crate::plot::{Figure, FigureInputs};
 use crate::report::failure::{Failure, problem};
-use crate::report::input::doubts::{drawn_doubt, suspects_doubt, suspects_line};
+use crate::report::input::doubts::{drawn_doubt, spacing_doubts, suspects_doubt, suspects_line};
 use crate::report::input::source::{
     Overrides, is_toml, read_bytes, read_table_stated, refuse_design, remark, ship_name, source_files, utf8,
 };
@@ -284,6 +284,7 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
     let estimate = VolumeEstimate::new(&job.table, &job.method.method, &fitted.hull, fitted.hull.reference_height());
     let mut warnings = overshoot::warnings(&job.table, &fitted.hull, design_row.as_ref());
     warnings.extend(drawn_doubt(&job.table, &fitted.hull));
+    warnings.extend(spacing_doubts(&job.table, &fitted.hull));
     warnings.extend(design_row.as_ref().and_then(unusual));
     // The page has those of the reading among its notes.
     let all: Vec<String> = job.warnings().map(remark).chain(warnings.iter().cloned()).collect();

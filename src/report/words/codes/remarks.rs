@@ -2,7 +2,7 @@
 
 use super::Explanation;
 
-pub(super) const REMARKS: [Explanation; 43] = [
+pub(super) const REMARKS: [Explanation; 44] = [
     Explanation {
         code: "N321",
         title: "How a table is read",
@@ -187,6 +187,13 @@ pub(super) const REMARKS: [Explanation; 43] = [
         remedy: "Run `check`, and correct the offsets.",
     },
     Explanation {
+        code: "W342",
+        title: "Stations or waterlines far apart",
+        cause: "The hull between them encloses 3 % more or less than straight lines do. The surface there follows from lines farther away.",
+        example: "A box with wedges for ends by four stations.",
+        remedy: "Give stations and waterlines where the hull bends, beside knuckles and above the keel.",
+    },
+    Explanation {
         code: "W351",
         title: "Body that is not closed",
         cause: "A mesh has open edges, or shells that reach into others, or surfaces share no side.",
@@ -206,7 +213,7 @@ pub(super) const REMARKS: [Explanation; 43] = [
         code: "W353",
         title: "Coefficients above 1",
         cause: "C_B, C_M, C_P or C_WP is above 1. The length, breadth and draught are less than those of the body, \
-         or are measured elsewhere.",
+         or are measured elsewhere. Or the surface swells between the lines of a table.",
         example: "`Lpp = 30` for a body of 60 m: CB 2.000.",
         remedy: "State Lpp, B and T of the body in metres.",
     },
