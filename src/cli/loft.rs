@@ -107,9 +107,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     lofted.warnings.iter().for_each(|warning| stream::message(warning));
     let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&stem));
     Destination { folder: &folder, inputs: &Inputs::of(&files), force: arguments.force }.write(&lofted.files)?;
+    let verdict = if lofted.failed.is_empty() {
+        Ok(())
+    } else {
+        Err(Failure::Check(format!("E504 not written: {}", lofted.failed.join("; "))))
+    };
     if arguments.quiet {
-        return Ok(());
+        return verdict;
     }
     let names: Vec<&str> = lofted.files.iter().map(|file| file.name.as_str()).collect();
-    stream::data(&format!("{}\nWritten to {}: {}\n", lofted.page, folder.display(), names.join(", ")))
+    stream::data(&format!("{}\nWritten to {}: {}\n", lofted.page, folder.display(), names.join(", ")))?;
+    verdict
 }

@@ -79,10 +79,28 @@ pub struct Lofted {
     pub page: String,
     /// Warnings.
     pub warnings: Vec<String>,
+    /// Formats of several that cannot be written, with the reason.
+    pub failed: Vec<String>,
 }
 
-fn failed(error: &PlotError) -> Failure {
+fn not_drawn(error: &PlotError) -> Failure {
     Failure::Internal(error.to_string())
+}
+
+/// All frames on tiles of A3, and how many there are.
+fn tiles_of(sheets: &[LoftSheet<'_>], ship: &str) -> Result<(OutputFile, usize), Failure> {
+    let count: usize = sheets.iter().map(loft_tile_count).sum();
+    if count > MOST_TILES {
+        return Err(Failure::Usage(format!(
+            "the frames take {} of A3, expected at most {MOST_TILES}: give fewer --frames, or --format dxf",
+            counted(count, "tile")
+        )));
+    }
+    let tiles: Vec<(String, _)> = sheets.iter().flat_map(loft_tiles).collect();
+    let heading = Heading { ship, source: "", date: None };
+    let list: Vec<Page<'_>> = tiles.iter().map(|(title, svg)| Page { title, caption: "", svg }).collect();
+    let contents = write_pdf(&heading, &list, Sheet::A3).map_err(|error| not_drawn(&error))?;
+    Ok((OutputFile { name: "frames.pdf".to_owned(), contents }, tiles.len()))
 }
 
 /// Where a frame meets the deck.
@@ -134,7 +152,7 @@ fn dxf_lines(frames: &[LoftedFrame], settings: &LoftSettings) -> Vec<DxfLine> {
 /// Lofts frames of a hull.
 ///
 /// # Errors
-/// [`Failure::Usage`] when no frame is reached, or the tiles are too many; [`Failure::Internal`] when a drawing cannot be made.
+/// [`Failure::Usage`] when no frame is reached, or the tiles of the one format are too many; [`Failure::Internal`] when a drawing cannot be made.
 pub fn loft(hull: &Hull, ship: &str, settings: &LoftSettings, formats: &[LoftFormat]) -> Result<Lofted, Failure> {
     let offset = match settings.side {
         SkinSide::Inside => -settings.thickness,
@@ -197,21 +215,16 @@ pub fn loft(hull: &Hull, ship: &str, settings: &LoftSettings, formats: &[LoftFor
         let text = write_dxf(&dxf_lines(&frames, settings), settings.unit, DxfVersion::R12);
         files.push(OutputFile::text("frames.dxf", text));
     }
-    let mut pages = String::new();
+    let (mut pages, mut failed) = (String::new(), Vec::new());
     if formats.contains(&LoftFormat::Pdf) {
-        let count: usize = sheets.iter().map(loft_tile_count).sum();
-        if count > MOST_TILES {
-            return Err(Failure::Usage(format!(
-                "the frames take {} of A3, expected at most {MOST_TILES}: give fewer --frames, or --format dxf",
-                counted(count, "tile")
-            )));
+        match tiles_of(&sheets, ship) {
+            Ok((file, count)) => {
+                files.push(file);
+                pages = format!("; {} of A3", counted(count, "tile"));
+            }
+            Err(Failure::Usage(why)) if formats.len() > 1 => failed.push(format!("pdf: {why}")),
+            Err(failure) => return Err(failure),
         }
-        let tiles: Vec<(String, _)> = sheets.iter().flat_map(loft_tiles).collect();
-        let heading = Heading { ship, source: "", date: None };
-        let list: Vec<Page<'_>> = tiles.iter().map(|(title, svg)| Page { title, caption: "", svg }).collect();
-        let contents = write_pdf(&heading, &list, Sheet::A3).map_err(|error| failed(&error))?;
-        pages = format!("; {} of A3", counted(tiles.len(), "tile"));
-        files.push(OutputFile { name: "frames.pdf".to_owned(), contents });
     }
     let all = || bevels.iter().flatten().flatten().copied();
     let [least, greatest] = all().fold([0.0_f64, 0.0], |[a, b], angle| [a.min(angle), b.max(angle)]);
@@ -220,5 +233,5 @@ pub fn loft(hull: &Hull, ship: &str, settings: &LoftSettings, formats: &[LoftFor
         counted(frames.len(), "frame"),
         settings.deviation
     );
-    Ok(Lofted { files, page, warnings })
+    Ok(Lofted { files, page, warnings, failed })
 }
