@@ -261,6 +261,12 @@ fn a_ring_may_have_no_edges() {
     displaces("ring-vertex.step", 10.0, 32.0 * std::f64::consts::PI.powi(2));
 }
 
+/// A ball of one rational spline whose knots do not end its ends, bounded by a vertex alone.
+#[test]
+fn a_ball_may_have_no_edges() {
+    displaces("sphere-spline-vertex.step", 5.0, 500.0 / 3.0 * std::f64::consts::PI);
+}
+
 /// A round pontoon, open at both ends of 48 sides, lying or upright: a lying one ends in a transom and a flat bow, an upright one
 /// has no bottom.
 #[test]

@@ -51,8 +51,8 @@ pub enum BodyPart {
         /// |y| of the inner edge \[m\].
         inner: f64,
     },
-    /// One side with a wall on the centreplane: half a body that is closed there, or a whole one that begins there.
-    BesideWall,
+    /// One side, closed or with a wall on the centreplane: half a body, or a whole one that begins there.
+    ClosedBeside,
 }
 
 /// A mesh of triangles, normals outward (right-hand rule).
@@ -115,24 +115,26 @@ impl TriangleMesh {
         Some([fold(f64::min), fold(f64::max)])
     }
 
-    /// How far the skin lies from its middle along the axes, root mean square by area \[m\].
+    /// First moments int (x_k - o_k) dA and products int (x_k - o_k)(x_l - o_l) dA about a point o, over the area.
     ///
-    /// Of a triangle with the coordinates a, b, c: int x dA / A = (a + b + c)/3, int x^2 dA / A =
-    /// (a^2 + b^2 + c^2 + (a + b + c)^2)/12.
+    /// Of a triangle with the corners a, b, c and their sum s: int x_k x_l dA / A = (a_k a_l + b_k b_l + c_k c_l + s_k s_l)/12.
     #[must_use]
-    pub fn deviations(&self) -> [f64; 3] {
-        let (mut area, mut first, mut second) = (0.0, [0.0; 3], [0.0; 3]);
+    pub fn moments(&self, about: [f64; 3]) -> ([f64; 3], [[f64; 3]; 3]) {
+        let (mut area, mut first, mut mixed) = (0.0, [0.0; 3], [[0.0; 3]; 3]);
         for corners in self.corners() {
             let own = triangle_area(corners);
+            let corners = corners.map(|corner| minus(corner, about));
+            let sum = [0, 1, 2].map(|k: usize| corners.iter().map(|corner| corner[k]).sum::<f64>());
             area += own;
             for k in 0..3 {
-                let [a, b, c] = corners.map(|corner| corner[k]);
-                let sum = a + b + c;
-                first[k] += own * sum / 3.0;
-                second[k] += own * (a * a + b * b + c * c + sum * sum) / 12.0;
+                first[k] += own * sum[k] / 3.0;
+                for l in 0..3 {
+                    let products: f64 = corners.iter().map(|corner| corner[k] * corner[l]).sum();
+                    mixed[k][l] += own * (products + sum[k] * sum[l]) / 12.0;
+                }
             }
         }
-        [0, 1, 2].map(|k: usize| (second[k] / area - (first[k] / area).powi(2)).max(0.0).sqrt())
+        (first.map(|value| value / area), mixed.map(|row| row.map(|value| value / area)))
     }
 
     /// The integral of y over the y of the area vectors \[m^3\], to which deck, bottom and transom add nothing, and the area
@@ -316,7 +318,11 @@ impl TriangleMesh {
             let area = 0.5 * cross(minus(b, a), minus(c, a))[1].abs();
             if corners.iter().all(near) { wall += area } else { skin += area }
         }
-        if wall > WALL * skin { BodyPart::BesideWall } else { BodyPart::Half { inner } }
+        if wall > WALL * skin || self.open_edges().is_empty() {
+            BodyPart::ClosedBeside
+        } else {
+            BodyPart::Half { inner }
+        }
     }
 
     /// The whole of a body of which one side is given, but for parts that are symmetric about the centreplane: corners within `slack` \[m\] of the centreplane are put on it,

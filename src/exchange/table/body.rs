@@ -71,8 +71,14 @@ pub struct ReadBody {
     sections: usize,
 }
 
-/// What the volume between sections leaves that of their body by, over it, before it is a warning.
-const SECTION_VOLUME: f64 = 1e-2;
+/// What the volume between sections leaves that of their body by, over it, before it is a warning, and an error.
+const SECTION_VOLUME: [f64; 2] = [1e-2, 5e-2];
+
+/// Sides that differ by less than this part of the breadth are alike.
+const ALIKE: f64 = 1e-4;
+
+/// Sections with less than this part of the breadth tell nothing of the sides.
+const NARROW: f64 = 0.02;
 
 /// What stands in a file.
 enum Shape {
@@ -416,7 +422,9 @@ impl ReadBody {
     pub fn table(self) -> Result<ReadTable, Vec<TableProblem>> {
         let mut problems = Problems::new("");
         let (sections, gaps, aside) = self.cut();
-        note_asymmetry(&gaps, &mut problems);
+        if gaps.iter().any(|(gap, _)| *gap > ALIKE * self.breadth()) {
+            note_asymmetry(&gaps, "port", &mut problems);
+        }
         if aside > 0 {
             let message = format!("{aside} loops that do not reach the centreplane are left out");
             problems.warning("W332", FilePosition::FILE, message, "");
@@ -436,6 +444,12 @@ impl ReadBody {
         }
     }
 
+    /// Its extent athwartships \[m\].
+    fn breadth(&self) -> f64 {
+        let bounds = self.meshes.last().and_then(TriangleMesh::bounds);
+        bounds.map_or(0.0, |[least, greatest]| greatest[1] - least[1])
+    }
+
     /// Compares the volume between the sections with that of the body, to which an open deck adds nothing; not of surfaces
     /// that may reach over each other.
     fn weigh(&self, sections: &[Section], problems: &mut Problems) {
@@ -445,13 +459,24 @@ impl ReadBody {
         let found = trapezoids(&sections.iter().map(area).collect::<Vec<_>>());
         let [volume, _] = mesh.enclosed_and_skin();
         let off = found / volume - 1.0;
-        if off.abs() > SECTION_VOLUME {
+        let [warned, refused] = SECTION_VOLUME;
+        if off.abs() > warned {
             let message = format!(
                 "the sections of the body enclose {found:.4e} m3, and the body {volume:.4e} m3 ({:+.1} %): sections from keel to deck \
                  are not its whole form",
                 100.0 * off
             );
-            problems.warning("W340", FilePosition::FILE, message, "Take the figures of the body itself from `hydro`");
+            if off.abs() > refused {
+                let remedy = "`hydro` takes the body itself. Give a body that is alike on both sides and whole on the centreplane";
+                problems.error("E354", FilePosition::FILE, message, remedy);
+            } else {
+                problems.warning(
+                    "W340",
+                    FilePosition::FILE,
+                    message,
+                    "Take the figures of the body itself from `hydro`",
+                );
+            }
         }
     }
 
@@ -483,7 +508,11 @@ impl ReadBody {
                 continue;
             }
             let deck: Option<Deck> = branches.last_mut().and_then(take_off_deck);
-            gaps.push((gap, x));
+            // A point of a stem is cut into edges of triangles, which differ where the sides do not.
+            let widest = branches.iter().flatten().map(|point| point.y).fold(0.0, f64::max);
+            if widest > NARROW * breadth {
+                gaps.push((gap, x));
+            }
             sections.push(Section { name: None, x, place: FilePosition::FILE, branches, deck });
         }
         (sections, gaps, aside)

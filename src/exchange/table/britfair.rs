@@ -107,7 +107,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         let message = format!("what follows '0 0 0', {} lines, is not read", rows.len() - index);
         problems.warning("W332", FilePosition::row(line.row), message, "");
     }
-    note_asymmetry(&gaps, &mut problems);
+    note_asymmetry(&gaps, "starboard", &mut problems);
     let stated = StatedParticulars::default();
     table(Body { name: title.to_owned(), stated, sections, origin: XOrigin::Unknown, unit: 1.0 }, problems)
 }

@@ -457,7 +457,7 @@ fn sections(component: &Component<'_>, shapes: &[Shape<'_>], problems: &mut Prob
         let deck: Option<Deck> = branches.last_mut().and_then(take_off_deck);
         sections.push(Section { name: None, x, place, branches, deck });
     }
-    note_asymmetry(&gaps, problems);
+    note_asymmetry(&gaps, "starboard", problems);
     sections
 }
 

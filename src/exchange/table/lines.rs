@@ -16,7 +16,7 @@ use super::super::cad::{
     CadCurve, CadSurfaces, Drawing, Model, ModelObject, PlacedObject, is_3dm, is_dxf, is_iges, read_3dm, read_dxf,
     read_iges, sampled,
 };
-use super::body::frame::{Given, Placement, off_base, size};
+use super::body::frame::{Extents, Given, Placement, off_base, size};
 use super::body::parts::{chosen_names, is_by_name};
 use super::body::{drawing_unit, has_acis};
 use super::problem::{FilePosition, Problems};
@@ -178,21 +178,21 @@ fn lines(source: Source, settings: &Settings, problems: &mut Problems) -> Option
     if has_acis(&surfaces, |layer| !left.iter().any(|name| name == layer), problems) {
         return None;
     }
-    let bounds = bounds(&curves)?;
-    let extents = [0, 1, 2].map(|k| bounds[1][k] - bounds[0][k]);
-    let longest = extents.into_iter().fold(0.0, f64::max);
-    if let Some(k) = (0..3).find(|&k| extents[k] <= FLAT * longest) {
+    let points: Vec<[f64; 3]> = curves.iter().flat_map(|curve| curve.points.iter().copied()).collect();
+    let extents = Extents::of_points(&points)?;
+    let longest = (0..3).map(|k| extents.extent(k)).fold(0.0, f64::max);
+    if let Some(k) = (0..3).find(|&k| extents.extent(k) <= FLAT * longest) {
         let axis = ["x", "y", "z"][k];
         let message = format!(
             "all curves lie in one plane, {axis} = {:.6}: views of a drawing do not say where in space they are",
-            bounds[0][k]
+            points[0][k]
         );
         let remedy = "Give stations or waterlines as lines in space, each at its own x or z";
         problems.error("E328", FilePosition::FILE, message, remedy);
         return None;
     }
     let given = Given::plain(unit);
-    let placement = Placement::of((bounds, extents), settings, &given, problems)?;
+    let placement = Placement::of(&extents, settings, &given, problems)?;
     let line = |curve: CadCurve| SpaceCurve {
         row: curve.line,
         points: curve.points.iter().map(|&point| placement.place(point)).collect(),
@@ -218,14 +218,6 @@ fn without_hidden(curves: &mut Vec<CadCurve>, hidden: &[String], problems: &mut 
             "Show these layers in the file, or name those that count with --parts (parts in the TOML beside it)";
         problems.warning("W352", FilePosition::FILE, message, remedy);
     }
-}
-
-fn bounds(curves: &[CadCurve]) -> Option<[[f64; 3]; 2]> {
-    let points = || curves.iter().flat_map(|curve| &curve.points);
-    let first = *points().next()?;
-    let fold =
-        |pick: fn(f64, f64) -> f64| points().fold(first, |ends, point| [0, 1, 2].map(|k| pick(ends[k], point[k])));
-    Some([fold(f64::min), fold(f64::max)])
 }
 
 /// The first names, and how many more there are.

@@ -82,7 +82,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         let message = format!("the file announces {}, {} there", counted(announced, "section"), sections.len());
         problems.error("E322", count, message, "Correct the count; was the file cut off?");
     }
-    note_asymmetry(&gaps, &mut problems);
+    note_asymmetry(&gaps, "starboard", &mut problems);
     let stated = StatedParticulars { draught: draught.filter(|t| *t > 0.0), ..StatedParticulars::default() };
     table(Body { name: String::new(), stated, sections, origin: XOrigin::Unknown, unit: 1.0 }, problems)
 }

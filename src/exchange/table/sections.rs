@@ -94,13 +94,13 @@ pub(super) fn starboard_of(points: &[OutlinePoint]) -> Option<(Vec<Vec<OutlinePo
     }
 }
 
-/// Says how far the sides of a ship given with both differ; `gaps` are distances \[m\] with x \[m\] as the file counts
-/// it.
-pub(super) fn note_asymmetry(gaps: &[(f64, f64)], problems: &mut Problems) {
+/// Says how far the sides of a ship given with both differ, of which `side` is taken; `gaps` are distances \[m\] with x \[m\]
+/// as the file counts it.
+pub(super) fn note_asymmetry(gaps: &[(f64, f64)], side: &str, problems: &mut Problems) {
     if let Some((gap, x)) = gaps.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0)) {
         let many = gaps.iter().filter(|(gap, _)| *gap > 1e-3).count();
         let message = format!(
-            "{} sections give both sides; starboard is taken. The sides differ by up to {gap:.4} m (x = {x:.3} m), in {many} \
+            "{} sections give both sides; {side} is taken. The sides differ by up to {gap:.4} m (x = {x:.3} m), in {many} \
              sections by more than 1 mm",
             gaps.len()
         );

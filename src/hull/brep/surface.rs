@@ -116,12 +116,15 @@ impl FaceSurface {
         }
     }
 
-    /// Points around a surface of revolution; none of others.
+    /// Points around a surface of revolution, or over a spline; none of others.
     pub(super) fn around(&self) -> Vec<[f64; 3]> {
-        let Self::Revolved { origin, profile, .. } = self else { return Vec::new() };
-        let [from, to] = profile.search_range(*origin);
-        let site = |k: usize| [FRAC_PI_4 * (k % 8) as f64, from + (to - from) * (k / 8) as f64 / 8.0];
-        (0..72).map(|k| self.at(site(k))[0]).collect()
+        let [us, vs] = match self {
+            Self::Revolved { origin, profile, .. } => [[0.0, TAU], profile.search_range(*origin)],
+            Self::Spline(surface) => [surface.u(), surface.v()].map(|knots| knots.domain().into()),
+            _ => return Vec::new(),
+        };
+        let at = |[from, to]: [f64; 2], k: usize| from + (to - from) * k as f64 / 8.0;
+        (0..72).map(|k| self.at([at(us, k % 8), at(vs, k / 8)])[0]).collect()
     }
 
     /// The curve on the surface where u (axis 0), or v (axis 1), has a value, with its own parameters at the given ends of

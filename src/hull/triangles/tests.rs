@@ -43,7 +43,7 @@ fn half_a_body_is_mirrored_without_its_middle() {
     let half = TriangleMesh::from_corners(
         mesh.corners().map(|t| t.map(|[x, y, z]| [x, 0.5 * (y + 1.0), z])).collect::<Vec<_>>().into_iter(),
     );
-    assert_eq!([half.part(), mesh.part()], [BodyPart::BesideWall, BodyPart::Whole]);
+    assert_eq!([half.part(), mesh.part()], [BodyPart::ClosedBeside, BodyPart::Whole]);
     let report_of = |half: &TriangleMesh, slack: f64| {
         let whole = half.mirrored(slack);
         assert!(whole.open_edges().is_empty() && whole.part() == BodyPart::Whole);

@@ -72,7 +72,18 @@ pub(super) fn meshes(
         let (meshes, deviation) = of_shells(shells, &surfaces, (kind, unit), settings, problems);
         return (meshes, deviation, false);
     }
-    let (meshes, deviation) = of_surfaces(surfaces, (kind, unit), settings, problems);
+    // Whole surfaces need no sewing. Where their meshes do not enclose one volume, edges that are sewn may.
+    let mut of_whole = problems.clone();
+    let (meshes, deviation) = of_surfaces(surfaces, (kind, unit), settings, &mut of_whole);
+    if faces > 0 && of_whole.any_errors() && !problems.any_errors() {
+        let mut sewn = problems.clone();
+        let (meshes, deviation) = of_faces(&body, &mut unread, (kind, unit), settings, &mut sewn);
+        if !sewn.any_errors() {
+            *problems = sewn;
+            return (meshes, deviation, false);
+        }
+    }
+    *problems = of_whole;
     (meshes, deviation, true)
 }
 

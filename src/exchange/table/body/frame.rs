@@ -12,6 +12,15 @@ const SYMMETRIC: f64 = 1e-3;
 /// The middle of a body over its extent athwartships, at most, of one that is not quite symmetric.
 const NEARLY: f64 = 0.1;
 
+/// Odd moments of a body that is its own mirror image, at most.
+const SKEWED: f64 = 0.01;
+
+/// Length over breadth of a body that is certainly longer than it is broad.
+const BROAD: f64 = 1.5;
+
+/// The axes of a file.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// Corners of one side of a body this many times as far from the centreplane as its inner edge belong on it.
 const MOVED: f64 = 1.5;
 
@@ -68,19 +77,19 @@ pub(in super::super) struct Placement {
 }
 
 impl Placement {
-    /// By the bounds of the points and how far they spread along the axes, the settings and what the file says; none, with a
-    /// problem, when the axes cannot be told.
+    /// By how a body lies along the axes of its file, the settings and what the file says; none, with a problem, when the axes
+    /// cannot be told.
     pub(in super::super) fn of(
-        (bounds, spread): ([[f64; 3]; 2], [f64; 3]),
+        extents: &Extents,
         settings: &Settings,
         given: &Given,
         problems: &mut Problems,
     ) -> Option<Self> {
         let BodyFrame { axes, up, x_origin, z_origin, .. } = settings.frame;
         let known = axes.or(if up.is_none() { given.axes } else { None });
-        let axes = known.or_else(|| found_axes((bounds, spread), up, given.up, problems))?;
+        let axes = known.or_else(|| found_axes(extents, up, given.up, problems))?;
         let unit = given.metres(settings);
-        let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
+        let size = extents.size() * unit;
         let origin = [x_origin, z_origin].map(|place| place.unwrap_or(0.0));
         Some(Self { axes, unit, slack: ON_CENTREPLANE * size, origin })
     }
@@ -100,9 +109,8 @@ pub(in super::super) fn framed(
     given: &Given,
     problems: &mut Problems,
 ) -> Vec<TriangleMesh> {
-    let Some(bounds) = meshes[0].bounds().filter(|_| !problems.any_errors()) else { return meshes };
-    let spread = meshes[0].deviations();
-    let Some(placement) = Placement::of((bounds, spread), settings, given, problems) else { return meshes };
+    let Some(extents) = Extents::of_mesh(&meshes[0]).filter(|_| !problems.any_errors()) else { return meshes };
+    let Some(placement) = Placement::of(&extents, settings, given, problems) else { return meshes };
     let BodyFrame { x_origin, .. } = settings.frame;
     let surfaces = given.surfaces;
     let place = |corner: [f64; 3]| placement.place(corner);
@@ -166,8 +174,8 @@ pub(in super::super) fn framed(
     if x_origin.is_none() && least[0].abs() > 0.2 * length {
         meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[0] -= least[0]);
         let message = format!(
-            "x of the file runs from {:.3} to {:.3} m; its aftmost point is taken as AP. x_origin in the TOML beside it says \
-             otherwise",
+            "the body runs from {:.3} to {:.3} m along its length; its aftmost point is taken as AP. x_origin in the TOML beside it \
+             says otherwise",
             least[0], greatest[0]
         );
         problems.warning("W320", FilePosition::FILE, message, "");
@@ -355,8 +363,9 @@ fn one_side(mesh: &TriangleMesh, stated: Option<bool>, format: Option<bool>, pro
             beside(mesh, problems);
             return None;
         }
-        BodyPart::BesideWall if known.is_none() => {
-            let message = "the body lies on one side of y = 0 and has a wall there: one half of a hull, or a whole body beside it";
+        BodyPart::ClosedBeside if known.is_none() => {
+            let message =
+                "the body lies on one side of y = 0 and is closed there: one half of a hull, or a whole body beside it";
             problems.error(
                 "E351",
                 FilePosition::FILE,
@@ -412,72 +421,190 @@ fn without_top(mesh: &TriangleMesh) -> TriangleMesh {
     TriangleMesh::from_corners(kept.into_iter())
 }
 
-/// The axes of a body by its extents; none, with a problem, when they cannot be told.
+/// How a body lies along the axes of its file.
+pub(in super::super) struct Extents {
+    least: [f64; 3],
+    greatest: [f64; 3],
+    /// Root mean square distance from its middle.
+    spread: [f64; 3],
+    /// How far it is from its mirror image across the plane through zero, and across that through the middle of its extent:
+    /// odd moments of its skin over their greatest size; 0 of a body that is mirrored there.
+    skew: [[f64; 3]; 2],
+}
+
+impl Extents {
+    /// Of the skin of a mesh; none of an empty one.
+    fn of_mesh(mesh: &TriangleMesh) -> Option<Self> {
+        let bounds = mesh.bounds()?;
+        Some(Self::new(bounds, |origin| mesh.moments(origin)))
+    }
+
+    /// Of points; none where there are none.
+    pub(in super::super) fn of_points(points: &[[f64; 3]]) -> Option<Self> {
+        let first = *points.first()?;
+        let fold = |pick: fn(f64, f64) -> f64| {
+            points.iter().fold(first, |ends, point| [0, 1, 2].map(|k| pick(ends[k], point[k])))
+        };
+        let bounds = [fold(f64::min), fold(f64::max)];
+        let mean = |origin: [f64; 3]| {
+            let (mut first, mut mixed) = ([0.0; 3], [[0.0; 3]; 3]);
+            for point in points {
+                let from: [f64; 3] = [0, 1, 2].map(|k| (point[k] - origin[k]) / points.len() as f64);
+                for k in 0..3 {
+                    first[k] += from[k];
+                    (0..3).for_each(|l| mixed[k][l] += from[k] * (point[l] - origin[l]));
+                }
+            }
+            (first, mixed)
+        };
+        Some(Self::new(bounds, mean))
+    }
+
+    /// By first moments and products of inertia about a point, over the area of the skin.
+    fn new(bounds: [[f64; 3]; 2], moments: impl Fn([f64; 3]) -> ([f64; 3], [[f64; 3]; 3])) -> Self {
+        let (_, about_mean) = moments(moments([0.0; 3]).0);
+        let spread = [0, 1, 2].map(|k: usize| about_mean[k][k].sqrt());
+        let [least, greatest] = bounds;
+        let half = [0, 1, 2].map(|k: usize| (0.5 * (greatest[k] - least[k])).max(f64::MIN_POSITIVE));
+        let middle = middle(bounds);
+        let skew = |axis: usize, place: f64| {
+            let mut origin = middle;
+            origin[axis] = place;
+            let (first, mixed) = moments(origin);
+            let others = (0..3).filter(|k| *k != axis).map(|k| mixed[axis][k].abs() / (half[axis] * half[k]));
+            others.fold(first[axis].abs() / half[axis], f64::max)
+        };
+        let skew = [[0.0; 3], middle].map(|places| [0, 1, 2].map(|k| skew(k, places[k])));
+        Self { least, greatest, spread, skew }
+    }
+
+    pub(in super::super) fn extent(&self, axis: usize) -> f64 {
+        self.greatest[axis] - self.least[axis]
+    }
+
+    /// The greatest extent.
+    fn size(&self) -> f64 {
+        (0..3).map(|k| self.extent(k)).fold(0.0, f64::max)
+    }
+
+    /// Distance of the middle from zero, over the extent.
+    fn off(&self, axis: usize) -> f64 {
+        0.5 * (self.least[axis] + self.greatest[axis]).abs() / self.extent(axis).max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether zero is in the middle.
+    fn is_centred(&self, axis: usize) -> bool {
+        (self.least[axis] + self.greatest[axis]).abs() <= SYMMETRIC * self.size()
+    }
+
+    /// Whether the body is its own mirror image across the plane through zero.
+    fn is_mirrored(&self, axis: usize) -> bool {
+        self.is_centred(axis) && self.skew[0][axis] < SKEWED
+    }
+
+    /// Whether the body is not its own mirror image across the middle of its extent.
+    fn is_uneven(&self, axis: usize) -> bool {
+        self.skew[1][axis] >= SKEWED
+    }
+
+    /// Whether it begins at zero.
+    fn is_one_sided(&self, axis: usize) -> bool {
+        self.least[axis].abs().min(self.greatest[axis].abs()) <= NEARLY * self.extent(axis)
+    }
+}
+
+fn middle([least, greatest]: [[f64; 3]; 2]) -> [f64; 3] {
+    [0, 1, 2].map(|k| 0.5 * (least[k] + greatest[k]))
+}
+
+/// The axes of a body; none, with a problem, when they cannot be told.
 ///
-/// The axis that is `usual`ly up in the format is so. It is not where the body is symmetric along it and nowhere else, or where
-/// it is the longest and the body is symmetric along one of the others alone. The longest is that along which the skin spreads
-/// farthest too: a mast may be higher than its hull is long.
+/// They are those in which files of the format are written, x forward and the `usual` axis up, unless the body contradicts them:
+/// it is no mirror image of itself across the centreplane that they give, and is one across that of another reading. Where its
+/// shape fits both, as that of a box does, the axes are ambiguous.
 fn found_axes(
-    ([least, greatest], spread): ([[f64; 3]; 2], [f64; 3]),
+    body: &Extents,
     up: Option<(usize, f64)>,
     usual: usize,
     problems: &mut Problems,
 ) -> Option<[(usize, f64); 3]> {
-    let extent = |k: usize| greatest[k] - least[k];
     // Right-handed: port is up x forward.
     let with_up = |(up, sign): (usize, f64)| {
         let (a, b) = ((up + 1) % 3, (up + 2) % 3);
-        if extent(a) >= extent(b) { [(a, 1.0), (b, sign), (up, sign)] } else { [(b, 1.0), (a, -sign), (up, sign)] }
+        if body.extent(a) >= body.extent(b) {
+            [(a, 1.0), (b, sign), (up, sign)]
+        } else {
+            [(b, 1.0), (a, -sign), (up, sign)]
+        }
     };
     if let Some(up) = up {
         return Some(with_up(up));
     }
-    let size = (0..3).map(extent).fold(0.0, f64::max);
-    let symmetric = |k: usize| (least[k] + greatest[k]).abs() <= SYMMETRIC * size;
-    // A body whose centreline is a little off, or whose sides differ, is nearer to symmetry across than up.
-    let off = |k: usize| (least[k] + greatest[k]).abs() / extent(k).max(f64::MIN_POSITIVE);
-    let names = ["x", "y", "z"];
-    let written = with_up((usual, 1.0));
-    let others = [(usual + 1) % 3, (usual + 2) % 3];
-    let is_tall = others.iter().all(|&k| extent(usual) > extent(k) && spread[usual] > spread[k]);
-    let frame = match others.map(symmetric) {
-        // A column is symmetric along both of the others.
-        [true, true] => written,
-        // So is one whose other extents are alike, wherever it stands.
-        _ if is_tall && (extent(others[0]) - extent(others[1])).abs() <= SYMMETRIC * size => written,
-        [true, false] if is_tall => upright(usual, others[0], others[1]),
-        [false, true] if is_tall => upright(usual, others[1], others[0]),
-        [false, false] if is_tall && off(others[0]).min(off(others[1])) > NEARLY && !symmetric(usual) => {
-            let message = format!(
-                "the axes are ambiguous: x runs from {} to {}, y from {} to {}, z from {} to {}",
-                least[0], greatest[0], least[1], greatest[1], least[2], greatest[2]
-            );
+    let written = if usual == 2 { AS_WRITTEN } else { with_up((usual, 1.0)) };
+    let [forward, across, up] = written.map(|(axis, _)| axis);
+    let is_tall =
+        [forward, across].iter().all(|&k| body.extent(up) > body.extent(k) && body.spread[up] > body.spread[k]);
+    let is_square = (body.extent(forward) - body.extent(across)).abs() <= SYMMETRIC * body.size();
+    // Other readings, and whether the shape tells them from the one that is written.
+    let mut readings: Vec<([(usize, f64); 3], bool)> = Vec::new();
+    if !body.is_mirrored(across) {
+        let is_broad = body.extent(across) > BROAD * body.extent(forward) && !body.is_centred(across);
+        if body.extent(across) > body.extent(forward)
+            && (body.is_mirrored(forward) || is_broad && body.is_one_sided(forward))
+            && (is_broad || body.is_uneven(across))
+        {
+            readings.push((upright(across, forward, up), true));
+        }
+        if body.is_mirrored(up) && body.off(across) > 0.5 * NEARLY && !is_tall {
+            readings.push((upright(forward, up, across), body.is_uneven(across)));
+        }
+        if is_tall && !is_square && body.is_mirrored(forward) {
+            readings.push((upright(up, forward, across), body.is_uneven(across)));
+        }
+    }
+    let is_anyhow = is_tall
+        && !is_square
+        && ![forward, across, up].iter().any(|&k| body.is_centred(k))
+        && body.off(forward).min(body.off(across)) > 0.5 * NEARLY;
+    let frame = match readings[..] {
+        [] if !is_anyhow => written,
+        [(other, true)] => other,
+        _ => {
+            let range = |k: usize| format!("{} runs from {} to {}", AXES[k], body.least[k], body.greatest[k]);
+            let message = format!("the axes are ambiguous: {}", [0, 1, 2].map(range).join(", "));
             let remedy = "Say --axes \"x y z\" (the file's axis for forward, port and up; axes in the TOML beside it)";
             problems.error("E351", FilePosition::FILE, message, remedy);
             return None;
         }
-        _ => {
-            let across = written[1].0;
-            let exchanged = symmetric(usual) && !symmetric(across) && off(across) > NEARLY;
-            if exchanged { with_up((across, 1.0)) } else { written }
-        }
     };
-    let across = frame[1].0;
-    let is_half = least[across].abs().min(greatest[across].abs()) <= NEARLY * extent(across);
-    if !symmetric(across) && !is_half {
-        let message = format!(
-            "{} runs from {:.3} to {:.3} in the unit of the file: the body is not symmetric about the centreplane, and is taken as it is",
-            names[across], least[across], greatest[across]
-        );
-        let remedy = "Say --axes (axes in the TOML beside it) where the axes are others";
+    say(body, frame, written, problems);
+    Some(frame)
+}
+
+/// Says of a body how it lies where that is not usual.
+fn say(body: &Extents, frame: [(usize, f64); 3], written: [(usize, f64); 3], problems: &mut Problems) {
+    let [forward, across, up] = frame.map(|(axis, _)| axis);
+    let remedy = "Say --axes (axes in the TOML beside it) where the axes are others";
+    if frame != written {
+        let words = frame.map(|(axis, sign)| format!("{}{}", if sign < 0.0 { "-" } else { "" }, AXES[axis]));
+        let message = format!("axes are taken as \"{}\", by the symmetry of the body", words.join(" "));
         problems.warning("W320", FilePosition::FILE, message, remedy);
     }
-    if frame.map(|(axis, _)| axis) != [0, 1, 2] && frame != with_up((usual, 1.0)) {
-        let written = frame.map(|(axis, sign)| format!("{}{}", if sign < 0.0 { "-" } else { "" }, names[axis]));
-        let message = format!("axes are taken as \"{}\" by the extents of the body", written.join(" "));
-        problems.warning("W320", FilePosition::FILE, message, "");
+    if !body.is_centred(across) && !body.is_one_sided(across) {
+        let message = format!(
+            "{} runs from {:.3} to {:.3} in the unit of the file: the body is not symmetric about the centreplane, and is taken as it is",
+            AXES[across], body.least[across], body.greatest[across]
+        );
+        problems.warning("W320", FilePosition::FILE, message, remedy);
     }
-    Some(frame)
+    let [length, breadth, height] = [forward, across, up].map(|axis| body.extent(axis));
+    if breadth > (1.0 + SYMMETRIC) * length {
+        let message = format!(
+            "the body is {length:.3} long, {breadth:.3} broad and {height:.3} high in the unit of the file, with its {} forward",
+            AXES[forward]
+        );
+        problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
 }
 
 /// The right-handed frame of a body whose length, breadth and height are these axes.

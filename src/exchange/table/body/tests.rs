@@ -51,10 +51,21 @@ fn frames_are_stated_or_found() {
     let half = brick(|[x, y, z]| [-x / 0.3048, z / 0.3048, -0.5 * (y + 3.0) / 0.3048]);
     let (found, said) = volume(&half, "[table]\nunits = 'ft'\naxes = '-x -z y'\nbody = 'half'\n").unwrap();
     assert!((found - 960.0).abs() < 1e-9 && said.contains("mirrored"), "{found} {said}");
-    // y up is seen when z is the axis of symmetry; the height does not begin at 0.
-    let (found, said) = volume(&brick(|[x, y, z]| [x, z - 1.0, -y]), "").unwrap();
-    assert!((found - 960.0).abs() < 1e-9 && said.contains("\"x -z y\""), "{found} {said}");
+    // y up is seen when z is the axis of symmetry and the sides flare; the height does not begin at 0. A box may lie anyhow.
+    let flared = |[x, y, z]: [f64; 3]| [x, z - 1.0, -y * (0.5 + 0.125 * z)];
+    let (found, said) = volume(&brick(flared), "").unwrap();
+    assert!((found - 720.0).abs() < 1e-9 && said.contains("\"x -z y\""), "{found} {said}");
     assert!(said.contains("lowest point is -1.000 m"), "{said}");
+    let error = volume(&brick(|[x, y, z]| [x, z - 1.0, -y]), "").unwrap_err();
+    assert!(notes(&error).contains("E351") && notes(&error).contains("the axes are ambiguous"), "{error:?}");
+    // So is y forward; a flap stays as it is written, and what is broader than long is said.
+    let (found, said) = volume(&brick(|[x, y, z]| [-y * (0.5 + 0.0125 * x), x - 20.0, z]), "").unwrap();
+    assert!((found - 720.0).abs() < 1e-9 && said.contains("\"y -x z\""), "{found} {said}");
+    let (_, said) = volume(&brick(|[x, y, z]| [-y, x - 20.0, z]), "").unwrap();
+    assert!(!said.contains("axes are taken") && said.contains("6.000 long, 40.000 broad"), "{said}");
+    // A whole body that touches the centreplane along its edge is none half of one.
+    let error = volume(&brick(|[x, y, z]| [x, y + 3.0 - 0.25 * (4.0 - z) * (y - 3.0) / 6.0 * 0.5, z]), "");
+    assert!(notes(&error.unwrap_err()).contains("is closed there"));
     // A mirrored frame is turned outward.
     let (found, said) = volume(&brick(|[x, y, z]| [x, -y, z]), "[table]\nscale = 2\n").unwrap();
     assert!((found - 8.0 * 960.0).abs() < 1e-9 && said.contains("12 triangles turned"), "{found} {said}");

@@ -56,7 +56,7 @@ pub(super) fn sections<'a>(
     }
     let widest = gaps.iter().map(|(gap, _)| *gap).fold(0.0, f64::max);
     if widest > ALIKE * size {
-        note_asymmetry(&gaps, problems);
+        note_asymmetry(&gaps, "port", problems);
     } else if !gaps.is_empty() {
         problems.note(format!("{} give both sides, which are alike", counted(gaps.len(), "section")));
     }
