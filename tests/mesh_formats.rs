@@ -3,6 +3,8 @@
 
 use std::fs;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use loftsman::internals::exchange::{ReadBody, TableProblem, read_body};
 
 use crate::support::{carried, folder, program, stderr, stdout};
@@ -110,7 +112,27 @@ fn what_is_not_read_of_a_mesh_is_named() {
     let image = b"<?xml version=\"1.0\"?><VTKFile type=\"ImageData\"></VTKFile>";
     assert!(of("a.vti", image).contains("a file of ImageData"));
     let outside = br#"{"asset": {"version": "2.0"}, "buffers": [{"uri": "hull.bin", "byteLength": 4}]}"#;
-    assert!(of("a.gltf", outside).contains("its bytes are not in the file"));
+    assert!(of("a.gltf", outside).contains("its bytes are neither in the file nor beside it"));
+}
+
+#[test]
+fn buffers_of_a_scene_may_stand_beside_it() {
+    let text = fs::read_to_string(carried("tests/mesh_formats").join("hull.gltf")).unwrap();
+    let mut scene: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let uri = scene["buffers"][0]["uri"].as_str().unwrap().split_once(";base64,").unwrap().1.to_owned();
+    scene["buffers"][0]["uri"] = "hull%20lines.bin".into();
+    let folder = folder("buffers");
+    folder.write("hull.gltf", &scene.to_string());
+    let path = folder.join("hull.gltf");
+    let volume = |path: &std::path::Path| -> f64 {
+        let done = program(&["hydro", &path.display().to_string(), "--draughts", "100", "--json"]);
+        let answer: serde_json::Value = serde_json::from_str(&stdout(&done)).unwrap();
+        answer["rows"][0]["DISPVOL"].as_f64().unwrap_or(0.0)
+    };
+    let missing = program(&["hydro", &path.display().to_string()]);
+    assert!(missing.status.code() == Some(3) && stderr(&missing).contains("neither in the file nor beside it"));
+    fs::write(folder.join("hull lines.bin"), STANDARD.decode(uri).unwrap()).unwrap();
+    assert!((volume(&path) - HULL).abs() < 1e-6 * HULL, "{}", volume(&path));
 }
 
 #[test]

@@ -47,8 +47,8 @@ pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, ro
 pub use hydrostatics_workbook::hydrostatics_workbook;
 pub use manifest::{Manifest, ManifestEntry, read_manifest_input, read_manifest_outputs, sha256};
 pub use mesh::{
-    write_gdf, write_glb, write_msh, write_nemoh, write_obj, write_ply, write_pnl, write_stl, write_stl_ascii,
-    write_threemf, write_vtk,
+    with_buffers, write_gdf, write_glb, write_msh, write_nemoh, write_obj, write_ply, write_pnl, write_stl,
+    write_stl_ascii, write_threemf, write_vtk,
 };
 pub use offsets::{bevels_csv, conventions_toml, heights_csv, offsets_csv};
 pub use report_tables::{diagonals_csv, micrometres, section_areas_csv};

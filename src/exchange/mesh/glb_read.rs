@@ -238,7 +238,8 @@ fn buffers<'a>(scene: &Value, binary: &'a [u8], faults: &mut Faults) -> Buffers<
         };
         if bytes.is_none() {
             let message =
-                "its bytes are not in the file; write one file (GLB, or glTF with its bytes in it)".to_owned();
+                "its bytes are neither in the file nor beside it; write one file (GLB, or glTF with its bytes in it)"
+                    .to_owned();
             faults.add(None, &format!("buffer {k}"), message);
         }
         all.push(bytes.unwrap_or_default());
@@ -251,6 +252,44 @@ fn buffers<'a>(scene: &Value, binary: &'a [u8], faults: &mut Faults) -> Buffers<
 pub(in super::super) fn is_gltf(bytes: &[u8]) -> bool {
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
     start.trim_start().starts_with('{') && start.contains("\"asset\"")
+}
+
+/// A scene of glTF as text with the bytes of its buffers in it, which `read` finds in files by their names relative to that of
+/// the scene; none where all are in it, or where it is no scene. Buffers that are not found stay as they are.
+pub fn with_buffers(bytes: &[u8], mut read: impl FnMut(&str) -> Option<Vec<u8>>) -> Option<Vec<u8>> {
+    let mut scene: Value = serde_json::from_slice(bytes).ok()?;
+    let mut is_changed = false;
+    for buffer in scene.get_mut("buffers")?.as_array_mut()? {
+        let Some(uri) = buffer.get("uri").and_then(Value::as_str).filter(|uri| !uri.starts_with("data:")) else {
+            continue;
+        };
+        let Some(name) = decoded(uri) else { continue };
+        if let Some(found) = read(&name) {
+            buffer["uri"] = format!("data:application/octet-stream;base64,{}", STANDARD.encode(found)).into();
+            is_changed = true;
+        }
+    }
+    if is_changed { serde_json::to_vec(&scene).ok() } else { None }
+}
+
+/// A relative address without the percent signs of its escapes (RFC 3986, 2.1).
+fn decoded(uri: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let [first, others @ ..] = rest {
+        let escaped = others.get(..2).filter(|_| *first == b'%').and_then(|two| std::str::from_utf8(two).ok());
+        match escaped.and_then(|two| u8::from_str_radix(two, 16).ok()) {
+            Some(byte) => {
+                bytes.push(byte);
+                rest = &others[2..];
+            }
+            None => {
+                bytes.push(*first);
+                rest = others;
+            }
+        }
+    }
+    String::from_utf8(bytes).ok()
 }
 
 /// Reads a scene of glTF as text, in its own axes (y up).

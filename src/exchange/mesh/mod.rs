@@ -26,6 +26,7 @@ mod vtk_xml;
 
 pub use gdf::write_gdf;
 pub use glb::write_glb;
+pub use glb_read::with_buffers;
 pub(super) use glb_read::{is_glb, is_gltf, read_glb, read_gltf};
 pub(super) use hydrostar::{is_hydrostar, read_hydrostar};
 pub use msh::write_msh;

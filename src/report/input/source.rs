@@ -2,11 +2,11 @@
 
 use std::fs;
 use std::io::{ErrorKind, Read as _};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::OnceLock;
 
 use super::carried::{catalogue_bytes, catalogue_ending, without_prefix};
-use super::doubts::{drawn_doubt, suspects_doubt};
+use super::doubts::{drawn_doubt, spacing_doubts, suspects_doubt};
 use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::fairing::suspects;
@@ -122,6 +122,18 @@ pub(in crate::report) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     if bytes.len() as u64 > most {
         let message = format!("the file has more than {most} bytes; longer ones are not read");
         return Err(Failure::Input(vec![diagnostic("E129", path, None, None, message)]));
+    }
+    if ending(path) == "gltf" {
+        let mut left = LARGEST_BODY;
+        let beside = |name: &str| {
+            let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+            let file = is_inside.then(|| fs::File::open(path.with_file_name(name)).ok()).flatten()?;
+            let mut found = Vec::new();
+            file.take(left + 1).read_to_end(&mut found).ok()?;
+            left = left.checked_sub(found.len() as u64)?;
+            Some(found)
+        };
+        bytes = exchange::with_buffers(&bytes, beside).unwrap_or(bytes);
     }
     Ok(bytes)
 }
@@ -488,7 +500,8 @@ fn fitted(path: &Path, bytes: &[u8], overrides: &Overrides) -> Result<Source, Fa
     // What was detected, as units and orders, decides the hull as much as what was assumed.
     let notes = notes.iter().map(ToString::to_string);
     let doubts = [drawn_doubt(&table, &fitted.hull), suspects_doubt(&table, &suspects(&table))];
-    let notes = notes.chain(doubts.into_iter().flatten()).chain(fitted.notes).collect();
+    let spaced = spacing_doubts(&table, &fitted.hull);
+    let notes = notes.chain(doubts.into_iter().flatten()).chain(spaced).chain(fitted.notes).collect();
     let given = Given::of_table(fitted.hull.particulars().draught.map(|_| overrides.states_draught()));
     let conventions = Conventions { assumed: Assumed::of(&table.stated), given, ..Conventions::default() };
     Ok(Source { hull: fitted.hull, conventions, notes, file: path.to_owned() })
