@@ -3,6 +3,8 @@
 
 use std::fmt::Write as _;
 
+use loftsman::internals::exchange::{TableWriting, write_table};
+
 use crate::table_evidence::{HEIGHTS, columns, distances, half_breadth, matrix, metres, read, same};
 
 /// What a table is warned of or refused for.
@@ -102,9 +104,16 @@ fn areas_volumes_and_remarks_are_no_offsets() {
     let text = with_column("A", |_| "2".to_owned());
     let (head, rest) = text.split_once('\n').unwrap();
     same(&format!("{head}\n{}[m2]\n{rest}", "[m],".repeat(1 + HEIGHTS.len())), "");
-    let found = messages(&with_column("Buttock 2 m", |_| "1.5".to_owned()), "");
-    assert!(found.contains("heights at a buttock among half-breadths"), "{found}");
-    same(&with_column("Buttock 2 m", |_| "1.5".to_owned()), "");
+    // Heights at buttocks may stand beside half-breadths, below a heading of theirs.
+    let beside = with_column("Buttock 2 m", |_| "1.5".to_owned());
+    let headed = beside.replace("Buttock 2 m", "2 m");
+    let groups = format!(",Half-breadths{}Heights at buttocks\n", ",".repeat(HEIGHTS.len()));
+    for text in [beside.clone(), format!("{groups}{beside}"), format!("{groups}{headed}")] {
+        same(&text, "");
+        let table = read(&text, "").unwrap().table;
+        let heights = table.stations[3].heights.iter().map(|cell| cell.value()).collect::<Vec<_>>();
+        assert_eq!((table.buttocks, heights), (vec![2.0], vec![Some(1.5)]), "{text}");
+    }
 }
 
 #[test]
@@ -177,6 +186,54 @@ fn heights_above_the_load_waterline_need_the_draught() {
     assert!(found.contains("the lowest waterline is at z = -6.000 m"), "{found}");
     let positive = format!("Heights above LWL\n{}", stations("x [m]", |x| x.to_string()));
     assert!(same(&positive, "[table]\nT = 6\n").iter().any(|w| w.contains("is not followed")));
+}
+
+/// The points of the hull, a section after the other: x, y and z \[m\], heights above `level`.
+fn hull_points(level: f64) -> Vec<[f64; 3]> {
+    let at =
+        |k: u32| HEIGHTS.iter().map(move |z| [5.0 * f64::from(k), half_breadth(5.0 * f64::from(k), *z), z - level]);
+    (0..21).flat_map(at).collect()
+}
+
+#[test]
+fn heights_of_points_and_of_lines_may_count_from_the_load_waterline() {
+    let rows: String = hull_points(6.0).iter().map(|[x, y, z]| format!("{x},{y:.3},{z}\n")).collect();
+    for text in [format!("x,y,z above LWL\n{rows}"), format!("# Heights above the LWL\nx,y,z\n{rows}")] {
+        let warned = same(&text, "[table]\nT = 6\n");
+        assert!(warned.iter().any(|w| w.contains("heights count from the waterline")), "{warned:?}");
+        assert!(messages(&text, "").contains("E311"));
+    }
+    let lines = "Station,0,1,2,3\nDistance,0,5,10,15\nHeights above LWL,,,,\nSheer,1.5,1.4,1.4,1.6\nChine,0,-0.2,-0.2,0.1\n\
+                 Keel,-0.5,-0.6,-0.6,-0.4\nHalf-breadths,,,,\nSheer,1,2,2,1\nChine,0.8,1.5,1.5,0.6\nKeel,0,0,0,0\n";
+    assert!(messages(lines, "").contains("E311"));
+    let table = read(lines, "[table]\nT = 0.6\n").unwrap().table;
+    let heights: Vec<f64> = table.stations[1].outlines[0].iter().map(|point| point.z).collect();
+    assert!(heights.iter().zip([0.0, 0.4, 2.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{heights:?}");
+    let written = write_table(&table, TableWriting::default()).text;
+    let again = read(&written, "").unwrap_or_else(|list| panic!("{}\n{written}", list[0])).table;
+    assert_eq!(again.stations[1].outlines, table.stations[1].outlines, "{written}");
+}
+
+#[test]
+fn sections_stand_side_by_side() {
+    let all = hull_points(0.0);
+    let sections: Vec<&[[f64; 3]]> = all.chunks(HEIGHTS.len()).collect();
+    let rows: String = (0..HEIGHTS.len())
+        .map(|j| {
+            let cells: Vec<String> =
+                sections.iter().map(|section| format!("{:.3},{}", section[j][1], section[j][2])).collect();
+            cells.join(",") + "\n"
+        })
+        .collect();
+    let heads = |head: &dyn Fn(usize) -> String| (0..21).map(head).collect::<Vec<_>>().join(",");
+    let ordinates = heads(&|_| "y,z".to_owned());
+    for (header, beside) in [
+        (format!("{}\n{ordinates}", heads(&|k| format!("x = {} m,", 5 * k))), ""),
+        (format!("{}\n{ordinates}", heads(&|k| format!("Station {k},"))), "[table]\nstation_spacing = 5\n"),
+        (heads(&|k| format!("St {k} y,St {k} z")), "[table]\nstation_spacing = 5\n"),
+    ] {
+        same(&format!("{header}\n{rows}"), beside);
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What stands around a table of offsets says about it: its name, main dimensions, units, and full breadths.
 
-use super::header::{Axis, Corner, axis_of, counts_down, counts_from_waterline, plain_number, side_of, unit_of};
+use super::header::{Axis, Corner, axis_of, counts_down, plain_number, side_of, unit_of};
 use super::long::from_header;
 use super::pieces::{Piece, Pieces};
 use super::problem::{Field, FilePosition, Problems};
@@ -45,8 +45,6 @@ pub(super) fn settle(pieces: &Pieces, settings: &mut Settings, problems: &mut Pr
         settings.prose(&line);
         settings.dimensions(&line, problems);
     }
-    let levels = texts().chain(corner).map(|text| text.trimmed()).find(|text| counts_from_waterline(text));
-    settings.from_waterline = levels.map(str::to_owned);
     let says_half = corner.is_some_and(|text| text.text.to_lowercase().contains("half"));
     let titles = texts().filter(|text| says_breadths(&text.text, false));
     let heads = heads.into_iter().flatten().skip(1).filter(|text| names_breadths(&text.text));

@@ -27,8 +27,6 @@ pub(super) struct TableReader<'a> {
     pub(super) problems: &'a mut Problems,
     /// Length between perpendiculars, where it is known \[m\].
     pub(super) length: Option<f64>,
-    /// Height above the base line of the plane from which heights count \[m\].
-    datum: f64,
     /// How often offsets have so many digits after the decimal sign; more than the last count as the last.
     digits: [usize; 18],
     /// Offsets as plain numbers, and in feet, inches and eighths.
@@ -40,7 +38,7 @@ impl<'a> TableReader<'a> {
         (form.notation, form.x_notation, form.z_notation) = (units.y, units.x, units.z);
         form.full_breadths = settings.full.unwrap_or(false);
         let length = settings.stated.length_between_perpendiculars;
-        Self { settings, form, units, problems, length, datum: 0.0, digits: [0; 18], writings: [0; 2] }
+        Self { settings, form, units, problems, length, digits: [0; 18], writings: [0; 2] }
     }
 
     fn reading(&mut self, field: &Field, unit: Notation) -> Option<CellReading> {
@@ -293,8 +291,6 @@ pub(super) fn assemble(
     let datum = ends_from_midship(origin.datum, settings, &stations, units.x, problems);
     let mut reader = TableReader::new(settings, TableForm { origin: datum, ..form }, units, problems);
     reader.length = reader.length.or(origin.length).or(between(origin.datum.open, datum));
-    reader.datum = heights::level(&blocks, settings, reader.problems);
-    let is_shifted = reader.datum.abs() > 0.0;
     let mut table = OffsetTable::default();
     for block in blocks {
         let Some(placed) = place(&block, &mut reader) else {
@@ -310,11 +306,6 @@ pub(super) fn assemble(
     }
     checks::signs(&mut table, &mut reader);
     table.form = reader.finish();
-    if is_shifted {
-        // What is written from now on counts from the base line.
-        table.form = heights::above_base(std::mem::take(&mut table.form));
-        table.stations.iter_mut().flat_map(|s| &mut s.heights).for_each(|cell| cell.written = None);
-    }
     Some(table)
 }
 
@@ -376,10 +367,8 @@ fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     if heights::names_waterlines(block.corner.trimmed()) {
         heads.iter_mut().for_each(|head| head.named = true);
     }
-    let is_breadths = block.across == Axis::Waterline;
     let spacing = heights::spacing(block, &heads, reader);
-    let datum = if is_breadths { reader.datum } else { 0.0 };
-    let across: Vec<f64> = heads.into_iter().map(|p| datum + reader.across_by(p, spacing)).collect();
+    let across: Vec<f64> = heads.into_iter().map(|p| reader.across_by(p, spacing)).collect();
     let xs: Vec<f64> = stations.into_iter().map(|p| reader.along(p)).collect();
     let mut good = true;
     for (field, &value) in block.heads.iter().zip(&across).chain(lines.iter().zip(&xs)) {
@@ -426,20 +415,14 @@ fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut Ta
     for (line, x) in lines.iter().zip(&xs) {
         // The second block gives the same stations, perhaps fewer.
         let at = table.stations.iter().position(|s| (s.station.x - x).abs() < SAME);
-        let mut cells: Vec<Cell> = line.cells.iter().map(|field| reader.cell(field, half)).collect();
-        if let (false, datum) = (half, reader.datum) {
-            cells.iter_mut().for_each(|cell| heights::raise(&mut cell.entry, datum));
-        }
+        let cells: Vec<Cell> = line.cells.iter().map(|field| reader.cell(field, half)).collect();
         let cells: Vec<Cell> = rising(cells, placed.across_order);
         let mut sides = Vec::new();
         for (side, field) in block.sides.iter().zip(&line.sides) {
             let is_breadth = matches!(side.kind, SideKind::FlatOfBottom | SideKind::DeckHalfBreadth);
             let unit = unit_of(side.head.trimmed()).unwrap_or(if is_breadth { reader.units.y } else { reader.units.z });
-            let value = reader.length(field, unit).map(|value| match is_breadth {
-                true if reader.form.full_breadths => 0.5 * value,
-                true => value,
-                false => value + reader.datum,
-            });
+            let share = if is_breadth && reader.form.full_breadths { 0.5 } else { 1.0 };
+            let value = reader.length(field, unit).map(|value| share * value);
             sides.push((side.kind, value, field.trimmed().to_owned()));
         }
         let Some(at) = at else {

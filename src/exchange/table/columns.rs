@@ -94,6 +94,11 @@ pub(super) fn column(name: &str) -> Option<Named> {
     if from_ap {
         words.truncate(words.len() - 2);
     }
+    // `z above LWL`, `height over base`: from where heights count.
+    let level = words.iter().position(|word| matches!(*word, "above" | "over"));
+    if let Some(at) = level.filter(|at| axis(&words[..*at].join(" ")) == Some(Column::Z)) {
+        words.truncate(at);
+    }
     let counts = words.len() > 1
         && words.last().is_some_and(|word| matches!(*word, "id" | "no" | "no." | "nr" | "number" | "index" | "idx"));
     let joined = words.join(" ");
@@ -164,14 +169,7 @@ fn axis(words: &str) -> Option<Column> {
         "point" => Column::Point,
         "y" | "offset" | "half breadth" | "halfbreadth" | "half width" | "half beam" | "half ordinate"
         | "semi breadth" | "semibreadth" | "y offset" | "hb" | "halbbreite" => Column::Y,
-        "z"
-        | "height"
-        | "h"
-        | "elevation"
-        | "waterline height"
-        | "height above base"
-        | "height above baseline"
-        | "waterline z" => Column::Z,
+        "z" | "height" | "h" | "elevation" | "waterline height" | "waterline z" => Column::Z,
         "waterline" | "water line" | "wl" | "level" | "draught" | "draft" | "wasserlinie" => Column::Waterline,
         "curve" | "kind" => Column::Curve,
         "flag" | "flags" | "mark" | "marks" => Column::Flag,
@@ -197,6 +195,7 @@ mod tests {
         }
         assert_eq!((of("x_from_AP_m"), of("WL"), of("z [m]")), (Column::X, Column::Waterline, Column::Z));
         assert_eq!(column("y_mm").unwrap().unit, Some(Notation::Millimetres));
+        assert_eq!((of("z above LWL"), of("Height above base (mm)")), (Column::Z, Column::Z));
         assert_eq!((of("x [feet-inches-eighths]"), of("Long. Pos (m)")), (Column::X, Column::X));
         assert!(column("x_from_ap_m").unwrap().from_ap);
         assert_eq!(breadths("breadth_m").map(|named| named.unit), Some(Some(Notation::Metres)));

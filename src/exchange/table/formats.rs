@@ -4,7 +4,7 @@ use super::grid::{LARGEST_TABLE, MOST_CELLS, MOST_ROWS, with_line_ends};
 use super::problem::{FilePosition, Problems};
 use super::settings::Settings;
 use super::{
-    ReadTable, TableProblem, britfair, delftship, freeship, ghs, michlet, pdstrip, pias, points, ratio, seaway,
+    ReadTable, TableProblem, britfair, delftship, freeship, ghs, heights, michlet, pdstrip, pias, points, ratio, seaway,
 };
 use crate::hull::{OffsetTable, Program};
 
@@ -42,7 +42,15 @@ pub(super) fn read(
     }
     let text = with_line_ends(String::from_utf8_lossy(bytes));
     let read = recognised(name, &text, sidecar, settings)?;
-    Some(read.and_then(|read| checked(name, read, settings, [!points::recognise(name, &text), true])))
+    let of_points = points::recognise(name, &text);
+    Some(read.and_then(|mut read| {
+        let mut problems = Problems::new(name);
+        let words = heights::from_waterline_above(&text).filter(|_| of_points);
+        let draught = settings.stated.draught.or(read.table.stated.draught);
+        heights::settle(&mut read.table, words.as_deref(), draught, &mut problems);
+        read.notes.extend(problems.finish()?);
+        checked(name, read, settings, [!of_points, true])
+    }))
 }
 
 /// A table with what the settings say of it, and with what is unknown of its bottom and ends. `own_unit`: its format

@@ -1,11 +1,13 @@
 //! Heights of waterlines: the distance between those that have numbers, and the plane from which heights count.
 
 use super::assemble::TableReader;
-use super::header::{Axis, Coordinate, Corner, Position, is_base_line, is_level};
+use super::header::{
+    Axis, Coordinate, Corner, Position, begins_as_number, counts_from_waterline, is_base_line, is_level, plain_number,
+};
 use super::matrix::Block;
 use super::problem::{Field, FilePosition, Problems};
 use super::settings::{Settings, metres};
-use crate::hull::{Entry, SideKind, SideLine, StationDatum, TableForm};
+use crate::hull::{Entry, OffsetTable, SideKind, SideLine, StationDatum, TableForm};
 use crate::units::Notation;
 
 /// The distance between waterlines, or buttocks, that have numbers \[m\], where it is known; a warning where it is not.
@@ -108,6 +110,47 @@ fn warn_of_counts(block: &Block, heads: &[Position], reader: &mut TableReader<'_
     reader.problems.warning("W320", FilePosition::FILE, message, remedy);
 }
 
+/// The spacing of the conventions \[m\], where the heights of points are numbers of waterlines that it counts: those of a column
+/// that names waterlines, and others that follow each other by one; a warning where it is not used, and where numbers may be
+/// such without it.
+pub(super) fn counted_points(
+    heights: &[&Field],
+    names_waterlines: bool,
+    unit: Option<Notation>,
+    settings: &Settings,
+    problems: &mut Problems,
+) -> Option<f64> {
+    let mut values: Vec<f64> = heights.iter().map(|field| plain_number(&field.text)).collect::<Option<_>>()?;
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let by_one = steps.iter().filter(|step| (*step - 1.0).abs() < 1e-9).count();
+    let counts = 2 * by_one > steps.len() && values.iter().all(|value| (4.0 * value).fract().abs() < 1e-9);
+    let (first, last) = (*values.first()?, *values.last()?);
+    match settings.waterline_spacing {
+        Some(spacing) if unit.is_none() && (names_waterlines || counts) => Some(spacing),
+        Some(spacing) => {
+            let message = format!(
+                "waterline_spacing {} m is not used: points stand at heights {first} to {last}",
+                metres(spacing)
+            );
+            let remedy = "Take waterline_spacing away, or give the numbers of the waterlines";
+            problems.warning("W332", FilePosition::FILE, message, remedy);
+            None
+        }
+        None => {
+            if names_waterlines && counts && unit.is_none() && values.len() > 2 && first.fract().abs() < 1e-9 {
+                let message = format!(
+                    "waterlines {first} to {last} may be numbers, and their spacing is not known: taken as heights"
+                );
+                let remedy = "Name the column z, or give waterline_spacing in the conventions";
+                problems.warning("W320", FilePosition::FILE, message, remedy);
+            }
+            None
+        }
+    }
+}
+
 /// Fewer whole numbers among waterlines are no numbers where others have decimals.
 const LEAST_WHOLE: usize = 4;
 
@@ -149,51 +192,72 @@ fn is_decimal(text: &str) -> bool {
     })
 }
 
-/// Height of the plane above the base line from which heights count \[m\]: the draught, where words say so.
-pub(super) fn level(blocks: &[Block], settings: &Settings, problems: &mut Problems) -> f64 {
-    let Some(words) = &settings.from_waterline else { return 0.0 };
-    let cells = |block: &Block| block.stations.iter().flat_map(|line| line.cells.clone()).collect::<Vec<Field>>();
-    let heights = |block: &Block| if block.across == Axis::Waterline { block.heads.clone() } else { cells(block) };
-    if !blocks.iter().flat_map(heights).any(|field| begins_below(field.trimmed())) {
+/// Words above the points of a text that heights count from the waterline.
+pub(super) fn from_waterline_above(text: &str) -> Option<String> {
+    let above = text.lines().map(str::trim).take_while(|line| !begins_as_number(line));
+    above.map(|line| line.trim_start_matches('#').trim()).find(|line| counts_from_waterline(line)).map(str::to_owned)
+}
+
+/// Words of a table, in its cells or its comments, that heights count from the waterline.
+pub(super) fn from_waterline(rows: &[Vec<Field>], comments: &[(usize, String)]) -> Option<String> {
+    let fields = rows.iter().flatten().map(Field::trimmed);
+    let texts = fields.chain(comments.iter().map(|(_, text)| text.as_str()));
+    texts.filter(|text| text.contains(char::is_alphabetic)).find(|text| counts_from_waterline(text)).map(str::to_owned)
+}
+
+/// Moves the heights of a table that counts them from the waterline, so that they count from the base line.
+///
+/// `words` say so, and the waterline is at the draught \[m\].
+pub(super) fn settle(table: &mut OffsetTable, words: Option<&str>, draught: Option<f64>, problems: &mut Problems) {
+    let Some(words) = words else { return };
+    let mut lowest = f64::INFINITY;
+    for_each(table, |height| lowest = lowest.min(*height));
+    if lowest >= 0.0 {
         let message = format!(
             "'{words}' is not followed: no height lies below the waterline, and all are taken from the base line"
         );
         problems.warning("W320", FilePosition::FILE, message, "Give heights above the base line");
-        return 0.0;
+        return;
     }
-    match settings.stated.draught {
-        Some(draught) => {
-            let message = format!(
-                "heights count from the waterline, by '{words}', at T {} m above the base line",
-                metres(draught)
-            );
-            problems.warning("W320", FilePosition::FILE, message, "Correct T if the waterline lies elsewhere");
-            draught
-        }
-        None => {
-            let message = format!(
-                "heights count from the waterline, by '{words}', and its height above the base line is not known"
-            );
-            problems.error(
-                "E311",
-                FilePosition::FILE,
-                message,
-                "Give the draught T in the conventions, or heights above the base line",
-            );
-            0.0
-        }
-    }
+    let Some(draught) = draught else {
+        let message =
+            format!("heights count from the waterline, by '{words}', and its height above the base line is not known");
+        let remedy = "Give the draught T in the conventions, or heights above the base line";
+        problems.error("E311", FilePosition::FILE, message, remedy);
+        return;
+    };
+    let message =
+        format!("heights count from the waterline, by '{words}', at T {} m above the base line", metres(draught));
+    problems.warning("W320", FilePosition::FILE, message, "Correct T if the waterline lies elsewhere");
+    for_each(table, |height| *height += draught);
+    // What is written from now on counts from the base line.
+    table.form = above_base(std::mem::take(&mut table.form));
+    table.stations.iter_mut().flat_map(|station| &mut station.heights).for_each(|cell| cell.written = None);
 }
 
-/// Whether the first number of a text is below zero: `-6`, `WL -6`; a dash between words and numbers joins them.
-fn begins_below(text: &str) -> bool {
-    let start = text.find(|c: char| c.is_ascii_digit()).unwrap_or(text.len());
-    let before = text[..start].trim_end_matches('.').strip_suffix(['-', '\u{2212}']);
-    before.is_some_and(|before| !before.ends_with(char::is_alphabetic))
+/// Goes over all heights of a table \[m\].
+fn for_each(table: &mut OffsetTable, mut visit: impl FnMut(&mut f64)) {
+    table.waterlines.iter_mut().for_each(&mut visit);
+    for station in &mut table.stations {
+        for cell in &mut station.heights {
+            if let Entry::Given(height) = &mut cell.entry {
+                visit(height);
+            }
+        }
+        let sides = [
+            &mut station.keel_height,
+            &mut station.flat_of_side,
+            &mut station.deck_height,
+            &mut station.deck_centre_height,
+        ];
+        sides.into_iter().flatten().for_each(&mut visit);
+        station.outlines.iter_mut().flatten().for_each(|point| visit(&mut point.z));
+    }
+    table.lines.iter_mut().flat_map(|line| &mut line.points).for_each(|point| visit(&mut point[2]));
 }
 
 /// The form of a table whose heights no longer count from where its words say.
-pub(super) fn above_base(form: TableForm) -> TableForm {
+fn above_base(form: TableForm) -> TableForm {
     let bare =
         |columns: Vec<SideLine>| columns.into_iter().map(|column| SideLine { texts: Vec::new(), ..column }).collect();
     let keeps_names = |columns: Vec<SideLine>| {
@@ -209,13 +273,7 @@ pub(super) fn above_base(form: TableForm) -> TableForm {
         buttock_corner: None,
         side_columns: keeps_names(form.side_columns),
         buttock_columns: keeps_names(form.buttock_columns),
+        boat_lines: Vec::new(),
         ..form
-    }
-}
-
-/// Moves a height up \[m\].
-pub(super) fn raise(entry: &mut Entry, by: f64) {
-    if let Entry::Given(height) = entry {
-        *height += by;
     }
 }

@@ -9,6 +9,7 @@ use super::around::{HALF_OR_FULL, UPWARD, by_slenderness, half_taken, says_full,
 use super::columns::{Column, KNOWN, Named, Whole, breadths, column, is_ordinate};
 use super::fields::decimals;
 use super::header::{Axis, axis_of, begins_as_number, counts_down, position};
+use super::heights;
 use super::outline::{keel_of, take_off_deck};
 use super::problem::{Field, FilePosition, Problems};
 use super::ratio::missing_dimensions;
@@ -169,7 +170,9 @@ pub(super) fn read(
         problems.error("E311", &header[at], "heights count downward, and are not read so".to_owned(), UPWARD);
         return None;
     }
-    let mut settings = settings.clone();
+    let mut points = points(rows, header, &columns, problems)?;
+    waterlines(&mut points, &columns, settings, problems);
+    let mut settings = Settings { waterline_spacing: None, ..settings.clone() };
     units(&columns, &mut settings);
     let title = titles.iter().flatten().find(|field| !field.is_blank());
     settings.units = settings.units.or(title.and_then(|title| unit_of_text(title.trimmed())));
@@ -180,7 +183,6 @@ pub(super) fn read(
     }
     left_out(header, &columns, problems);
     let comma = form.decimal_comma;
-    let mut points = points(rows, header, &columns, problems)?;
     if let Some(at) = columns.unsaid.filter(|_| settings.full.is_none()) {
         let is_placed = columns.find(Column::X).is_some();
         settings.full = weighed(&header[at], &points, (comma, is_placed), &settings, problems);
@@ -190,7 +192,6 @@ pub(super) fn read(
     let is_spaced =
         settings.station_spacing.is_some() || settings.sentences.frames.is_some() && by_frames(header, &columns);
     distances(&mut points, &columns, comma, (&settings, is_spaced), problems);
-    waterlines(&mut points, &columns, &settings, problems);
     one_side(&mut points, comma, problems);
     let (on_waterlines, heights) = on_waterlines(&points);
     // Points of keel, chine and sheer, station after station, are no waterlines.
@@ -465,37 +466,20 @@ fn distances(
     }
 }
 
-/// Waterlines that follow each other in whole numbers are heights, or numbers that the conventions space.
+/// Heights that are numbers of waterlines, which the conventions space, become lengths.
 fn waterlines(points: &mut [Point], columns: &Columns, settings: &Settings, problems: &mut Problems) {
-    let by_name = columns.find(Column::Waterline).filter(|_| columns.find(Column::Z).is_none());
-    let Some((_, named)) = by_name.or(columns.height()).filter(|(_, named)| named.fraction.is_none()) else { return };
-    let heights = steps(points.iter().map(|point| &point.z), false);
-    let are_open = named.unit.or(settings.z_units).is_none();
-    let follow = heights.as_ref().is_some_and(|(values, steps)| {
-        let by_one = steps.iter().filter(|step| (*step - 1.0).abs() < 1e-9).count();
-        2 * by_one > steps.len() && values.iter().all(|value| (4.0 * value).fract().abs() < 1e-9)
-    });
-    // A spacing that is stated counts heights that follow each other by one, whatever their name.
-    if by_name.is_none() && !(are_open && follow && settings.waterline_spacing.is_some()) {
+    let Some((_, named)) = columns.height().filter(|(_, named)| named.fraction.is_none()) else { return };
+    let fields: Vec<&Field> = points.iter().map(|point| &point.z).collect();
+    let is_waterline = named.column == Column::Waterline;
+    let Some(spacing) =
+        heights::counted_points(&fields, is_waterline, named.unit.or(settings.z_units), settings, problems)
+    else {
         return;
-    }
-    if let Some(spacing) = settings.waterline_spacing {
-        for field in points.iter_mut().map(|point| &mut point.z) {
-            if let Some(value) = number(field, false) {
-                field.text = format!("{} m", value * spacing);
-            }
+    };
+    for field in points.iter_mut().map(|point| &mut point.z) {
+        if let Some(value) = number(field, false) {
+            field.text = format!("{} m", value * spacing);
         }
-        return;
-    }
-    let Some((values, _)) = heights.filter(|_| follow && are_open) else { return };
-    if values.len() > 2 && values[0].fract().abs() < 1e-9 {
-        let message = format!(
-            "waterlines {} to {} may be numbers, and their spacing is not known: taken as heights",
-            values[0],
-            values[values.len() - 1]
-        );
-        let remedy = "Name the column z, or give waterline_spacing in the conventions";
-        problems.warning("W320", FilePosition::FILE, message, remedy);
     }
 }
 

@@ -61,7 +61,7 @@ pub(super) struct Block {
 
 /// The blocks of the tables of a file.
 pub(super) fn blocks(tables: &[Piece], settings: &Settings, problems: &mut Problems) -> Vec<Block> {
-    tables.iter().filter_map(|piece| block(piece, settings, problems)).collect()
+    tables.iter().filter_map(|piece| block(piece, settings, problems)).flatten().collect()
 }
 
 /// A rectangle of fields, without an empty last column; rows of other lengths are errors.
@@ -283,7 +283,8 @@ fn are_buttocks<'f>(heads: impl Iterator<Item = &'f Field>) -> bool {
 fn is_over_buttocks(text: &str) -> bool {
     let lower = text.to_lowercase();
     let states_spacing = spacing(&lower, &["buttock", "buttocks"]).is_some() && !lower.contains("height");
-    axis_of(text) == Some(Axis::Buttock) && names_buttock(text) && !states_spacing
+    let is_over_heights = lower.contains("height") && !lower.contains("half");
+    (axis_of(text) == Some(Axis::Buttock) || is_over_heights) && names_buttock(text) && !states_spacing
 }
 
 /// Whether a header names a buttock in full; `BL` may be the base line.
@@ -387,7 +388,27 @@ fn deck(head: &Field, rows: &[Vec<Field>], column: usize, problems: &mut Problem
     kind
 }
 
-fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<Block> {
+/// What a column of a matrix holds.
+#[derive(Clone, Copy, PartialEq)]
+enum Held {
+    Side,
+    Cell,
+    /// A height at a buttock, beside half-breadths.
+    Height,
+}
+
+/// Whether the group of headers over a column is that of heights at buttocks: the last one that begins before it, in the nearest
+/// row that has several.
+fn is_below_buttocks(head: &Field, texts: &[Field]) -> bool {
+    let rows = texts.iter().map(|text| text.row).filter(|row| *row < head.row);
+    let has_groups = |row: &usize| texts.iter().filter(|text| text.row == *row).count() > 1;
+    let Some(row) = rows.filter(has_groups).max() else { return false };
+    let over = texts.iter().filter(|text| text.row == row && text.column <= head.column);
+    over.max_by_key(|text| text.column).is_some_and(|text| is_over_buttocks(&text.text))
+}
+
+/// The block of a table, and that of the heights at buttocks beside it.
+fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<Vec<Block>> {
     let (fields, trailing) = rectangle(&piece.rows, problems)?;
     if fields.len() < 2 || fields[0].len() < 2 {
         let message =
@@ -427,9 +448,20 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
     let says = Corner::of(corner.trimmed());
     let across =
         if rows == Rows::Waterlines { says.rows.filter(|a| !a.is_station()).or(says.columns) } else { says.columns };
+    let beside: Vec<bool> = heads
+        .iter()
+        .map(|head| names_buttock(head.trimmed()) || rows == Rows::Stations && is_below_buttocks(head, &piece.texts))
+        .collect();
+    let are_mixed = beside.iter().skip(left + 1).any(|is_height| *is_height)
+        && heads.iter().zip(&beside).skip(left + 1).any(|(head, is_height)| {
+            !is_height
+                && !head.is_blank()
+                && side_of(head.trimmed()).is_none()
+                && axis_of(head.trimmed()) != Some(Axis::Buttock)
+        });
     let buttocks = across == Some(Axis::Buttock)
-        || across.is_none() && piece.texts.iter().any(|text| is_over_buttocks(&text.text))
-        || are_buttocks(heads.iter().skip(left + 1));
+        || across.is_none() && !are_mixed && piece.texts.iter().any(|text| is_over_buttocks(&text.text))
+        || !are_mixed && are_buttocks(heads.iter().skip(left + 1));
     let mut block = Block {
         corner,
         first: heads[left].clone(),
@@ -444,7 +476,8 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
         trailing,
     };
     // Which column is what: a position, a side, or nothing.
-    let mut columns: Vec<Option<bool>> = vec![None; heads.len()];
+    let mut columns: Vec<Option<Held>> = vec![None; heads.len()];
+    let mut heights = Block { across: Axis::Buttock, ..block.clone() };
     for (j, head) in heads.iter().enumerate().skip(left + 1) {
         let by_numbers = is_deck(head.trimmed());
         let kind = if by_numbers { deck(head, &fields[top + 1..], j, problems) } else { side_of(head.trimmed()) };
@@ -454,36 +487,41 @@ fn block(piece: &Piece, settings: &Settings, problems: &mut Problems) -> Option<
         if let Some(kind) = kind.filter(|kind| !matches!(kind, SideKind::Stern | SideKind::Stem)) {
             let before = block.heads.is_empty();
             block.sides.push(SideHeader { kind, head: head.clone(), before });
-            columns[j] = Some(true);
+            columns[j] = Some(Held::Side);
         } else if head.is_blank() {
             if let Some(full) = fields.iter().skip(top + 1).map(|row| &row[j]).find(|f| !f.is_blank()) {
                 let message = "an offset without a header".to_owned();
                 problems.error("E310", full, message, "Write the position of its waterline over it");
             }
-        } else if !buttocks && names_buttock(head.trimmed()) {
-            let message = "left out: heights at a buttock among half-breadths";
-            let remedy = "Give heights at buttocks in a table of their own, below an empty row";
-            problems.warning("W332", head.place(), message.to_owned(), remedy);
+        } else if !buttocks && beside[j] {
+            heights.heads.push(head.clone());
+            columns[j] = Some(Held::Height);
         } else {
             block.heads.push(head.clone());
-            columns[j] = Some(false);
+            columns[j] = Some(Held::Cell);
         }
     }
     for row in fields.into_iter().skip(top + 1) {
-        let mut line = MatrixRow::default();
+        let (mut line, mut at_buttocks) = (MatrixRow::default(), Vec::new());
         for (j, field) in row.into_iter().enumerate() {
             match columns[j] {
                 _ if j == left => line.head = field,
                 None if j < left => line.name = Some(field),
-                Some(true) => line.sides.push(field),
-                Some(false) => line.cells.push(field),
+                Some(Held::Side) => line.sides.push(field),
+                Some(Held::Cell) => line.cells.push(field),
+                Some(Held::Height) => at_buttocks.push(field),
                 None => {}
             }
         }
         match side_of(line.head.trimmed()) {
             Some(kind @ (SideKind::Stern | SideKind::Stem)) => block.endings.push((kind, line)),
-            _ => block.stations.push(line),
+            _ => {
+                let (head, name) = (line.head.clone(), line.name.clone());
+                heights.stations.push(MatrixRow { head, name, cells: at_buttocks, sides: Vec::new() });
+                block.stations.push(line);
+            }
         }
     }
-    Some(block)
+    let heights = Some(heights).filter(|heights| !heights.heads.is_empty());
+    Some([block].into_iter().chain(heights).collect())
 }

@@ -6,6 +6,7 @@
 //! assumed is a note. Cost: linear in the file, and in the square of the number of lines, of which there are
 //! at most [`MOST_LINES`].
 
+mod abreast;
 mod around;
 mod assemble;
 mod blanks;
@@ -234,6 +235,7 @@ fn of_grid(
     if sheet.is_none() {
         titles::settle(&mut grid.rows, grid.separator);
     }
+    abreast::settle(&mut grid.rows, problems);
     triples::settle(&mut grid.rows, problems);
     thousands::settle(&mut grid.rows, grid.separator, settings, problems);
     let layout = settings.layout.unwrap_or_else(|| {
@@ -251,6 +253,7 @@ fn of_grid(
         long::refuse_words(header, problems);
         return None;
     }
+    settings.from_waterline = heights::from_waterline(&grid.rows, &grid.comments);
     if layout == TableLayout::Tidy {
         titles::units_below(&mut grid.rows, long::from_header);
     }
@@ -294,6 +297,7 @@ fn of_grid(
         table.name.clone_from(name);
     }
     table.stated = settings.stated;
+    heights::settle(&mut table, settings.from_waterline.as_deref(), settings.stated.draught, problems);
     table.lines.extend(settings.lines.iter().cloned());
     table.transom = settings.transom;
     if !table.waterlines.is_empty() || !problems.any_errors() {

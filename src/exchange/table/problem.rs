@@ -215,7 +215,7 @@ fn cause(code: &'static str, message: &str, remedy: &str) -> Cause {
 }
 
 /// Everything that was noticed while a table was read.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Problems {
     file: String,
     list: Vec<TableProblem>,

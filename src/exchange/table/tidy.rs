@@ -19,6 +19,7 @@ use super::assemble::{SAME, TableReader};
 use super::columns::{Column, column};
 use super::grid::{MOST_CELLS, MOST_LINES};
 use super::header::{Axis, Corner, Position, axis_of, plain_number, position, unit_of};
+use super::heights::counted_points;
 use super::long::from_header;
 use super::numbering::{Breadths, origin};
 use super::problem::{Field, FilePosition, Problems};
@@ -156,6 +157,9 @@ pub(super) fn read(
     let form = TableForm { origin: datum, layout: TableLayout::Tidy, ..form };
     let mut reader = TableReader::new(settings, form, units, problems);
     reader.length = reader.length.or(origin.length);
+    let numbers: Vec<&Field> = records.iter().filter(|r| matches!(r.curve, "WL" | "SEC")).map(|r| r.z).collect();
+    let own_unit = columns(header)[3].and_then(|at| unit_of(header[at].trimmed()));
+    let spacing = counted_points(&numbers, false, own_unit.or(settings.z_units), settings, reader.problems);
     let mut table = OffsetTable::default();
     let mut read: Vec<(&Record<'_>, f64, Option<f64>, Cell)> = Vec::with_capacity(records.len());
     for record in &records {
@@ -172,7 +176,12 @@ pub(super) fn read(
         let buttock = record.curve == "BT";
         // At a buttock the height is the offset, with its marks, and y the position.
         let mut cell = reader.cell(if buttock { record.z } else { record.y }, !buttock);
-        let other = reader.length(if buttock { record.y } else { record.z }, if buttock { units.y } else { units.z });
+        let counted = spacing.zip(plain_number(&record.z.text)).filter(|_| matches!(record.curve, "WL" | "SEC"));
+        let other = match counted {
+            Some((spacing, number)) => Some(spacing * number),
+            None if buttock => reader.length(record.y, units.y),
+            None => reader.length(record.z, units.z),
+        };
         flags(&mut cell, &record.flag);
         let needs = !matches!(record.curve, "FOB" | "DECK");
         if needs && other.is_none() {

@@ -4,7 +4,8 @@
 //! a text of that kind begins with. One message about the kind helps more than one about each of its lines.
 
 /// First bytes of a kind of file.
-const FIRST_BYTES: [(&[u8], &str); 10] = [
+const FIRST_BYTES: [(&[u8], &str); 11] = [
+    (b"\x89HDF", "a mesh (HDF5, as MED and CGNS)"),
     (b"<VTKFile", "a mesh (VTK), which needs the feature `packages` of the library"),
     (b"\x1f\x8b", "a file compressed by gzip"),
     (b"BZh", "a file compressed by bzip2"),
@@ -24,14 +25,18 @@ const ENDINGS: [(&str, &str); 1] = [(".dwg", DWG)];
 pub(super) const DWG: &str = "a drawing (DWG)";
 
 /// Beginnings of the texts of bodies that are not read, in small letters, and what they are.
-const BODIES: [(&str, &str); 6] = [
+const BODIES: [(&str, &str); 9] = [
     ("dbrep_drawableshape", BREP),
     ("cascade topology", BREP),
     ("meshversionformatted", MEDIT),
     ("mesh3d", "a mesh (Netgen)"),
     ("*heading", ABAQUS),
     ("*node", ABAQUS),
+    ("*keyword", "a mesh (LS-DYNA)"),
+    ("begin bulk", NASTRAN),
+    ("ndime=", "a mesh (SU2)"),
 ];
+const NASTRAN: &str = "a mesh (Nastran)";
 pub(super) const BREP: &str = "a body (BREP of OpenCASCADE)";
 const MEDIT: &str = "a mesh (Medit)";
 const ABAQUS: &str = "a mesh (Abaqus)";
@@ -50,12 +55,23 @@ pub(super) fn remedy(kind: &str) -> &'static str {
 
 /// A body of a kind that is not read, by the first lines of its text that are no remarks.
 fn body(lower: &str) -> Option<&'static str> {
-    let remarks = ["#", "**", "//"];
+    if lower.starts_with("#vrml") {
+        return Some("a mesh (VRML)");
+    }
+    let remarks = ["#", "**", "//", "$"];
     let is_said = |line: &&str| !line.is_empty() && !remarks.iter().any(|remark| line.starts_with(remark));
     let mut lines = lower.lines().map(str::trim).filter(is_said);
     let first = lines.next()?;
     if let Some((_, kind)) = BODIES.iter().find(|(start, _)| first.starts_with(start)) {
         return Some(kind);
+    }
+    let is_point =
+        |rest: &str| rest.trim_start_matches(['*', ',', ' ', '\t']).starts_with(|c: char| c.is_ascii_digit());
+    if first.strip_prefix("grid").is_some_and(is_point) {
+        return Some(NASTRAN);
+    }
+    if first == "-1" && lines.next().is_some_and(|second| ["151", "164", "2411", "2420"].contains(&second)) {
+        return Some("a mesh (I-DEAS UNV)");
     }
     let is_titled = first.starts_with("title") || first.starts_with("variables");
     let has = |word: &str| lower.lines().any(|line| line.trim_start().starts_with(word));
@@ -74,6 +90,9 @@ pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {
     }
     if lower.starts_with("<?xml") && lower.contains("<vtkfile") {
         return Some("a mesh (VTK), which needs the feature `packages` of the library");
+    }
+    if lower.contains("<x3d") {
+        return Some("a mesh (X3D)");
     }
     if let Some(kind) = body(&lower) {
         return Some(kind);
@@ -96,6 +115,12 @@ mod tests {
             ("MeshVersionFormatted 2\nDimension 3\n", MEDIT),
             ("# Generated\nmesh3d\n\ndimension\n3\n", "a mesh (Netgen)"),
             ("** remark\n*HEADING\nship\n*NODE\n1, 0., 0., 0.\n", ABAQUS),
+            ("$ remark\nGRID    1       0       0.00E+00-5.000006.000000\n", NASTRAN),
+            ("$# remark\n*KEYWORD\n*NODE\n1, 0, -5, 6\n", "a mesh (LS-DYNA)"),
+            ("    -1\n  2411\n         1         1\n", "a mesh (I-DEAS UNV)"),
+            ("#VRML V1.0 ascii\nCoordinate3 {\n", "a mesh (VRML)"),
+            ("<?xml version=\"1.0\"?>\n<!DOCTYPE X3D>\n<X3D profile='Interchange'>\n", "a mesh (X3D)"),
+            ("NDIME= 3\nNELEM= 0\n", "a mesh (SU2)"),
             ("TITLE = \"hull\"\nVARIABLES = \"X\", \"Y\"\nZONE NODES = 7\n0.0 1.0\n", TECPLOT),
         ] {
             assert_eq!(format("hull.txt", text.as_bytes()), Some(kind), "{text}");
