@@ -122,7 +122,7 @@ fn buffers_of_a_scene_may_stand_beside_it() {
     let uri = scene["buffers"][0]["uri"].as_str().unwrap().split_once(";base64,").unwrap().1.to_owned();
     scene["buffers"][0]["uri"] = "hull%20lines.bin".into();
     let folder = folder("buffers");
-    folder.write("hull.gltf", &scene.to_string());
+    folder.write("hull.gltf", scene.to_string());
     let path = folder.join("hull.gltf");
     let volume = |path: &std::path::Path| -> f64 {
         let done = program(&["hydro", &path.display().to_string(), "--draughts", "100", "--json"]);

@@ -199,9 +199,12 @@ fn hull_points(level: f64) -> Vec<[f64; 3]> {
 fn heights_of_points_and_of_lines_may_count_from_the_load_waterline() {
     let rows: String = hull_points(6.0).iter().map(|[x, y, z]| format!("{x},{y:.3},{z}\n")).collect();
     for text in [format!("x,y,z above LWL\n{rows}"), format!("# Heights above the LWL\nx,y,z\n{rows}")] {
-        let warned = same(&text, "[table]\nT = 6\n");
-        assert!(warned.iter().any(|w| w.contains("heights count from the waterline")), "{warned:?}");
+        let found = messages(&text, "[table]\nT = 6\n");
+        assert!(found.contains("heights count from the waterline"), "{found}");
         assert!(messages(&text, "").contains("E311"));
+        let table = read(&text, "[table]\nT = 6\n").unwrap().table;
+        let heights = table.stations[3].outlines.iter().flatten().map(|point| point.z);
+        assert!(heights.zip(HEIGHTS).all(|(a, b)| (a - b).abs() < 1e-9));
     }
     let lines = "Station,0,1,2,3\nDistance,0,5,10,15\nHeights above LWL,,,,\nSheer,1.5,1.4,1.4,1.6\nChine,0,-0.2,-0.2,0.1\n\
                  Keel,-0.5,-0.6,-0.6,-0.4\nHalf-breadths,,,,\nSheer,1,2,2,1\nChine,0.8,1.5,1.5,0.6\nKeel,0,0,0,0\n";

@@ -167,7 +167,7 @@ pub(super) fn waterplane(hull: &Hull, immersion: &Immersion, rule: &Rule) -> Wat
         breadth,
         entrance: entrance_angle(
             |u| y(u).max(0.0),
-            |u| half_angle(&line, if u == fore.1 { fore } else { (line.knots().find_span(u), u) }),
+            |u| half_angle(&line, if u < fore.1 { (line.knots().find_span(u), u) } else { fore }),
             [fore.1, aft.1],
             0.5 * breadth,
         ),

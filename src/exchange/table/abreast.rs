@@ -32,9 +32,9 @@ fn ordinate(field: &Field) -> Option<(bool, String)> {
     // `St 3 y`, `St 3: y [m]`, `St 3 (y)`; a unit in brackets belongs to the last word.
     let bare = text.strip_suffix([')', ']']).filter(|bare| bare.ends_with(['y', 'z', 'Y', 'Z'])).unwrap_or(text);
     let parts = bare.match_indices([' ', '_', ',', ':', '(', '-']).map(|(at, _)| bare.split_at(at));
-    let found =
+    let mut found =
         parts.filter_map(|(before, after)| Some((of(after.trim_matches([' ', '_', ',', ':', '(', '-']))?, before)));
-    found.last().map(|(is_y, before)| (is_y, before.trim_matches([' ', '_', ',', ':', '(', '-']).to_owned()))
+    found.next_back().map(|(is_y, before)| (is_y, before.trim_matches([' ', '_', ',', ':', '(', '-']).to_owned()))
 }
 
 /// The pairs of columns below a row of headers, where all its words but the first are of such.
